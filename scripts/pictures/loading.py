@@ -1,14 +1,16 @@
 """The pictures against the load: summaries, closed forms, details, spots and their sizes, histograms."""
 import dataclasses
 import math
-import os
+import pathlib
 
 from axes import Axis, Scale, a_decade, axis, decades, marked_up
 from picture import AREA, DELTA, GAP, MEAN_GAP, MOST_CURVES, OVER, P, P_BAR, P_MAX, P_STAR, RIGHT, X, Y, \
     CannotBeDrawn, Quantity, entry, mean_pressure_axis
 from table import Table
 
-REFERENCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "outputs", "reference", "wave_2d.dat")
+# Converged values: of the tree, or where these files are installed.
+REFERENCE = next(folder/"wave_2d.dat" for place in pathlib.Path(__file__).resolve().parents[1:3]
+                 for folder in (place/"reference", place/"outputs"/"reference") if folder.is_dir())
 # The status of a load that is not accurate. Below are those of solutions, above those of loads that are not solved.
 NOT_ACCURATE = 10
 NO_UNIT = ("", "-", "#")   # units of columns without one

@@ -56,7 +56,8 @@ def below_crest(picture):
         # Panels are narrow: fewer tics, even fewer of numbers of four characters.
         x = Axis(low, high, step_of((2.2 if max(-10*low, high) >= 1000 else 1.5)*(high - low)),
                  label=stress.label(SYMBOLS[name][0]), font=",12")
-        curves = [picture.curve(look, stress.of(columns[name], run), depth.of(columns["depth"], run), title=title)
+        curves = [picture.curve(look, *zip(*sorted(zip(stress.of(columns[name], run), depth.of(columns["depth"], run)),
+                                                   key=lambda point: point[1])), title=title)
                   for load in loads for run, columns, look, title in picture.curves_of(load)]
         picture.panel(n, x, y, curves + picture.runs("lines"), key=RIGHT if n + 1 == across else "")
 

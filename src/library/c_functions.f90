@@ -4,7 +4,7 @@ module wavycon_c_functions
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_procpointer, c_funptr, c_int, c_ptr, &
       c_size_t
    use wavycon_c_handles, only: c_call, handle_type, new_handle, not_a_handle, put_text, text_at
-   use wavycon_deck_session, only: pick_number
+   use wavycon_deck_session, only: await_solve, pick_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_reference, only: key_json
    use wavycon_kinds, only: dp
@@ -60,9 +60,11 @@ contains
       type(c_ptr), value :: error, scene, user_data
       type(c_funptr), value :: callback
 
+      integer(c_int) :: ignored
       type(c_call) :: this
 
       if (this%begins(error, scene, 'scene')) then
+         ignored = await_solve(this%contents%scene%is_solving)   ! another thread may just call the function
          associate (progress => this%contents%progress, solver => this%contents%scene%results%solver)
             nullify (progress%callback, solver%progress)
             progress%data = user_data

@@ -53,19 +53,27 @@ void wavycon_unlock(void)
     pthread_mutex_unlock(&lock);
 }
 
-/* Called before a load is solved. Waits until no other thread solves with the scene to which `is_solving` belongs, then
-   releases the lock, so that other threads may enter the library. Returns 0, or 1 if this thread itself solves with the
-   scene: a callback must not wait for the load that called it. */
-int wavycon_begin_solve(int *is_solving)
+/* Waits until no other thread solves with the scene to which `is_solving` belongs. Returns 0, or 1 if this thread
+   itself solves with the scene: a callback must not wait for the load that called it. */
+int wavycon_await_solve(const int *is_solving)
 {
     if (!has_lock)
         return 0;
     if (this_thread == 0)
         this_thread = ++threads;
-    if (*is_solving == this_thread)
-        return 1;
-    while (*is_solving)
+    while (*is_solving && *is_solving != this_thread)
         pthread_cond_wait(&load_solved, &lock);
+    return *is_solving != 0;
+}
+
+/* Called before a load is solved. Waits as wavycon_await_solve does and returns the same; if that is 0, releases the
+   lock, so that other threads may enter the library. */
+int wavycon_begin_solve(int *is_solving)
+{
+    if (wavycon_await_solve(is_solving))
+        return 1;
+    if (!has_lock)
+        return 0;
     *is_solving = this_thread;
     solves++;
     wavycon_unlock();

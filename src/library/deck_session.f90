@@ -25,7 +25,7 @@ module wavycon_deck_session
    use wavycon_scene_groups, only: load_group
    use wavycon_settings, only: read_setting, setting_type
    use wavycon_solution_record, only: solution_record
-   use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_target
+   use wavycon_solve_loads, only: find_interface, find_stresses, note_interface, order_loads, solve_target
    use wavycon_stress_fields, only: stress_fields
    use wavycon_table, only: table_type
    use wavycon_tables, only: all_tables, summary_table
@@ -33,25 +33,33 @@ module wavycon_deck_session
    implicit none (type, external)
    private
 
-   public :: check_ready, deck_session, pick_number, solved_load
+   public :: await_solve, check_ready, deck_session, pick_number, solved_load
 
    integer, parameter :: few = 12   ! names that a message lists
 
    !> In C programs other threads may call the library while one solves a load, but not with the same session: c_lock.c.
    interface
-      !> 0, or 1 if this thread solves with the session already, whose progress callback it is then in.
+      !> Waits until no other thread solves with the session. Returns 0, or 1 if this thread itself solves with it, and
+      !> is in the session's progress callback.
+      integer(c_int) function await_solve(is_solving) bind(c, name='wavycon_await_solve')
+         import :: c_int
+         integer(c_int), intent(in) :: is_solving
+      end function await_solve
+
+      !> The same, and lets other threads into the library if it returns 0.
       integer(c_int) function begin_solve(is_solving) bind(c, name='wavycon_begin_solve')
          import :: c_int
          integer(c_int), intent(inout) :: is_solving
       end function begin_solve
 
+      !> Keeps other threads out again.
       subroutine end_solve(is_solving) bind(c, name='wavycon_end_solve')
          import :: c_int
          integer(c_int), intent(inout) :: is_solving
       end subroutine end_solve
    end interface
 
-   character(*), parameter :: in_callback = 'this scene solves a load: its progress callback cannot solve another one'
+   character(*), parameter :: in_callback = 'this scene solves a load: its progress callback cannot use the scene'
 
    !> A deck with its solver started.
    type :: deck_session
@@ -64,7 +72,10 @@ module wavycon_deck_session
       real(dp), allocatable, private :: mean_pressure(:)  !! the same [pressure], if the deck gives them by pressure
       type(solution_record), allocatable, private :: records(:)   !! records of the deck's loads; status < 0: not solved
       type(run_log), private :: log                       !! writes nothing, but keeps notes on surface and tables
-      integer(c_int), private :: is_solving = 0           !! number of the thread that solves a load; else 0
+      integer(c_int) :: is_solving = 0                    !! number of the thread that solves a load; else 0
+      !> Whether it solves for a table, from the one element of `results%loads`: other threads then must not use the
+      !> session.
+      logical, private :: is_for_table = .false.
    contains
       procedure :: open => open_session
       procedure :: open_file
@@ -268,10 +279,15 @@ contains
       type(memory_table), intent(out), target :: table
       type(error_type), allocatable, intent(out) :: error
 
+      integer(c_int) :: is_busy   ! 0: no thread solves with the session
       type(table_type), allocatable :: writer
 
       call find_writer(self, name, solved, writer, error)
       if (allocated(error)) return
+      if (writer%group == 'interface') then
+         if (await_solve(self%is_solving) /= 0) call fatal_error(error, exit_bad_input, in_callback)
+         if (allocated(error)) return
+      end if
       associate (results => self%results)
          call solved%solution%move_to(results%loads(1))
          call move_alloc(solved%spots, results%spots)
@@ -284,15 +300,15 @@ contains
             call find_stresses(results, self%log)
          else if (writer%group == 'interface') then
             if (allocated(results%slip)) deallocate (results%slip)
-            if (begin_solve(self%is_solving) == 0) then
-               call find_interface(results, self%log, name)
-               call end_solve(self%is_solving)
-            else
-               call fatal_error(error, exit_bad_input, in_callback)
-            end if
+            self%is_for_table = .true.
+            is_busy = begin_solve(self%is_solving)
+            call find_interface(results, self%log, name)
+            call end_solve(self%is_solving)
+            self%is_for_table = .false.
+            call note_interface(results, self%log, name)
          end if
          results%memory => table
-         if (.not. allocated(error)) call writer%write(results, error)
+         call writer%write(results, error)
          nullify (results%memory)
          call results%loads(1)%move_to(solved%solution)
          call move_alloc(results%spots, solved%spots)
@@ -445,7 +461,8 @@ contains
       if (.not. allocated(words)) call fatal_error(error, exit_bad_input, "there is no text '"//name//"'")
    end subroutine text
 
-   !> Checks that a session is open and, if a load is needed, that it was solved. Errors: exit_bad_input.
+   !> Checks that a session is open and, if a load is needed, that it was solved. Waits until no other thread makes a
+   !> table from solutions of its own. Errors: exit_bad_input, also in a callback of such a table.
    subroutine check_ready(self, error, solved)
       class(deck_session), intent(in) :: self
       type(error_type), allocatable, intent(out) :: error
@@ -457,6 +474,8 @@ contains
          if (.not. allocated(solved%solution)) &
             call fatal_error(error, exit_bad_input, 'there is no solution: no load has been solved')
       end if
+      if (allocated(error) .or. .not. self%is_for_table) return
+      if (await_solve(self%is_solving) /= 0) call fatal_error(error, exit_bad_input, in_callback)
    end subroutine check_ready
 
 end module wavycon_deck_session

@@ -420,6 +420,15 @@ class Plot(ProgramTest):
                          [(block.load, block.body, block.columns["depth"][0]) for block in binary.blocks])
         self.assertEqual(2*2*9, len(binary.blocks))
 
+    def test_depths_in_any_order(self):
+        pictures = set()
+        for folder, depths in ("rising", "0.1, 0.2, 0.4"), ("mixed", "0.4, 0.1, 0.2"):
+            self.run_deck("depths", "&surface kind = 'wave_2d' / &load pbar_over_pstar = 0.2 /\n"
+                          f"&stress nu = 0.3, line = t, depths = {depths} /\n", output=folder)
+            self.plot("--format", "svg", f"{folder}/depths.stress_line.dat")
+            pictures.add((self.folder/folder/"depths.stress_line.svg").read_bytes())
+        self.assertEqual(1, len(pictures))
+
     def test_compared_stresses(self):
         for kind in ("line", "largest"):
             shown = self.drawn("--compare", f"stress.stress_{kind}.dat", f"stress.stress_{kind}.dat",

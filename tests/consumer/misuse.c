@@ -104,6 +104,10 @@ static void decks(void)
     /* A file for the directory. */
     REFUSED(wavycon_run_deck(error, "misuse.nml", "misuse.nml", 1, &status));
     remove("misuse.resolved.nml");
+    /* Quotes are a part of the name of a directory. */
+    FINE(wavycon_run_deck(error, "misuse.nml", "'misuse'", 1, &status));
+    check(remove("'misuse'/misuse.summary.dat") == 0, "a directory with quotes in its name", __LINE__);
+    check(remove("'misuse'/misuse.resolved.nml") == 0 && remove("'misuse'") == 0, "and what it has", __LINE__);
     wavycon_scene scene = wavycon_read_scene(error, "misuse.nml", "load.mean_gap=0.5\nsurface.amplitude=2", 0);
     check(number(scene, "loads") == 1 && number(scene, "amplitude") == 2, "keys that are set", __LINE__);
     wavycon_delete(&scene);

@@ -181,6 +181,12 @@ class Consumers(unittest.TestCase):
         self.assertIn("usage: wavycon-plot", run(self.prefix/"bin"/"wavycon-plot", "--help"))
         run(self.prefix/"bin"/"wavycon-plot", self.folder/"deck.summary.dat")
         self.assertTrue((self.folder/"deck.summary.png").is_file())
+        # With the reference values beside the points.
+        deck = self.folder/"paper.nml"
+        deck.write_text("&surface kind = 'wave_2d' / &load pbar_over_pstar = 0.2 / &method solver = 'beale' /\n")
+        run(self.prefix/"bin"/"wavycon", deck, "--quiet", "--output", self.folder)
+        run(self.prefix/"bin"/"wavycon-plot", self.folder/"paper.summary.dat")
+        self.assertTrue((self.folder/"paper.summary.png").is_file())
 
     def test_tables_are_compared(self):
         self.assertIn("\nagrees", run(self.prefix/"bin"/"wavycon-verify", "deck.summary.dat", "wave_2d", "--tolerance",

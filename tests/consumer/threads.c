@@ -110,11 +110,12 @@ static int stop(void *calls, int iterations, double residual)
    come in afterwards. */
 static int calls_in_a_callback(void)
 {
-    const char deck[] = "&surface kind = 'wave_2d' / &method solver = 'grid', accuracy = 1e-2 /";
+    const char deck[] = "&surface kind = 'wave_2d' / &method solver = 'grid', accuracy = 1e-2 /\n"
+                        "&interface friction = 0.3, nu = 0.3, tangential_over_normal = 0.1 /";
     double one = 0, other = 1, refused = 1, status = 0, after_stop = 1;
-    int calls = 0, refusals = 0;
+    int calls = 0, refusals = 0, of_loads;
     wavycon_error error = wavycon_new_error(), inner = wavycon_new_error();
-    wavycon_scene scene = wavycon_new_scene(error, deck, "d", 0, 0, 0, NULL);
+    wavycon_scene scene = wavycon_new_scene(error, deck, "d", 1, 0, 0, NULL);
     wavycon_scene second = wavycon_new_scene(error, deck, "d", 0, 0, 0, NULL);
     void *data[2] = {inner, second};
     wavycon_solution plain = wavycon_solve(error, scene, "contact_area_fraction", 0.3);
@@ -123,6 +124,10 @@ static int calls_in_a_callback(void)
     void *own[3] = {inner, scene, &refusals};
     wavycon_set_progress(error, scene, solve_own, own);
     wavycon_solution undisturbed = wavycon_solve(error, scene, "contact_area_fraction", 0.3);
+    of_loads = refusals;
+    wavycon_table slip = wavycon_new_table(error, undisturbed, "partial_slip");   /* solves, too */
+    int is_made = slip != NULL && refusals > of_loads;
+    wavycon_delete(&slip);
     wavycon_set_progress(error, scene, stop, &calls);
     wavycon_solution stopped = wavycon_solve(error, scene, "contact_area_fraction", 0.3);
     wavycon_set_progress(error, scene, NULL, NULL);
@@ -142,7 +147,8 @@ static int calls_in_a_callback(void)
     wavycon_delete(&inner);
     wavycon_delete(&error);
     calls_go_on_while_a_load_is_solved();
-    return one != other || one != refused || refusals == 0 || status != WAVYCON_INTERRUPTED || one != after_stop;
+    return one != other || one != refused || of_loads == 0 || !is_made || status != WAVYCON_INTERRUPTED ||
+           one != after_stop;
 }
 
 int main(void)

@@ -840,6 +840,23 @@ class Processes(PackageTest):
         self.assertEqual([one.contact_area for one in serial], solved)
         self.assertEqual([one.pressure.max() for one in shared], peaks)
 
+    def test_threads_that_ask_for_tables(self):
+        """A table that takes solutions of its own is not mixed with the loads of which other threads ask for tables."""
+        shared = wc.solve(wc.wave_2d(), e_star=1, solver="grid", grid_points=128, mean_pressure=[0.5, 1], interface={
+            "friction": 0.3, "nu": 0.3, "tangential_over_normal": [0.05, 0.1, 0.15, 0.2]})
+
+        def table(load, name):
+            shared[load]._tables.pop(name, None)   # so that it is made again
+            return shared[load].table(name).tobytes()
+
+        serial = table(0, "partial_slip"), table(1, "spots")
+        with concurrent.futures.ThreadPoolExecutor(1) as pool:
+            slip = pool.submit(lambda: {table(0, "partial_slip") for _ in range(3)})
+            spots = {table(1, "spots")}
+            while not slip.done():
+                spots.add(table(1, "spots"))
+        self.assertEqual(({serial[0]}, {serial[1]}), (slip.result(), spots))
+
     @unittest.skipUnless(hasattr(os, "fork"), "needs fork")
     def test_fork(self):
         """Objects made before a fork work in the child, also if other threads are in the library."""

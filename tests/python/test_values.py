@@ -547,6 +547,12 @@ class Pictures(ValuesTest):
         self.assertEqual("contact area [m²]", results.plot("contact_area").get_ylabel())
         self.assertEqual("elastic energy [J]", results.plot("elastic_energy").get_ylabel())
 
+    def test_a_section_is_the_same_in_whatever_order_its_depths_are_given(self):
+        drawn = [wc.solve(wc.wave_2d(), pbar_over_pstar=0.2, output={"line_points": 16}, stress={
+            "nu": 0.3, "section": "x", "depths": depths})[0].plot_stress_section().collections[0].get_array()
+            for depths in ([0.05, 0.1, 0.3], [0.3, 0.05, 0.1, 0.1])]
+        numpy.testing.assert_array_equal(*drawn)
+
     def test_tables_of_the_surface(self):
         """All loads have the same surface."""
         results = self.solve_rough()
@@ -681,6 +687,14 @@ class Sweeps(ValuesTest):
         frame = wc.sweep(wc.wave_1d(), {"method.solver": "auto", "load.pbar_over_pstar": 0.1,
                                         "surface.amplitude": numpy.array(2)}, 1)
         self.assertEqual([["auto", 0.1, 2]], frame.iloc[:, :3].values.tolist())
+
+    def test_a_list_that_is_too_long_for_the_name_of_a_case(self):
+        loads = [number/101 for number in range(1, 101)]
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", DeprecationWarning)   # of pandas
+            frame = wc.sweep(wc.wave_1d(), {"load.pbar_over_pstar": [loads]}, 1)
+        numpy.testing.assert_allclose(frame.pbar_over_pstar, loads, rtol=DIGITS)
+        self.assertEqual([*range(1, 101)], frame.load.tolist())
 
     def test_a_wrong_key_is_an_error_before_anything_starts(self):
         with unittest.mock.patch("subprocess.Popen", side_effect=AssertionError):

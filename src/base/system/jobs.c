@@ -38,6 +38,8 @@ int wavycon_begin_job(int number)
         if ((job->files[i] = tmpfile()) == NULL)
             return -1;
     wavycon_handle_signals();
+    /* Where this signal is ignored, as under some servers, nobody learns how a process ended. */
+    signal(SIGCHLD, SIG_DFL);
     /* Signals wait until a new process has its own output and says nothing of the jobs. */
     sigset_t all, before;
     sigfillset(&all);

@@ -242,12 +242,14 @@ int blas_thread_shutdown_(void);
 /* Defined in kept_memory.c. */
 void wavycon_keep_memory(void);
 
-/* Prepares the process. A write beyond the limit on file sizes then fails as on a full disk, while by default a signal
-   ends the program. Deallocated memory is kept. OpenBLAS uses one thread, and the threads that it started when it was
-   loaded end: without work each would occupy a processor for a tenth of a second while it waits. */
+/* Prepares the process. A write beyond the limit on file sizes, or to a pipe from which nobody reads on, then fails as
+   on a full disk, while by default a signal ends the program. Deallocated memory is kept. OpenBLAS uses one thread, and
+   the threads that it started when it was loaded end: without work each would occupy a processor for a tenth of a
+   second while it waits. */
 void wavycon_prepare_process(void)
 {
     signal(SIGXFSZ, SIG_IGN);
+    signal(SIGPIPE, SIG_IGN);
     wavycon_keep_memory();
 #ifdef WAVYCON_OPENBLAS
     openblas_set_num_threads(1);

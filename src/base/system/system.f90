@@ -40,10 +40,10 @@ module wavycon_system
          import :: c_int64_t
       end function stack_limit
 
-      !> Prepares the process, once at its start. A write beyond the limit on file sizes (ulimit -f) then fails as on a
-      !> full disk, instead of ending the program. Deallocated memory is kept for later arrays, instead of being given
-      !> back to the system. OpenBLAS uses one thread: its default, all processors, saves no time for the small matrices
-      !> here.
+      !> Prepares the process, once at its start. A write beyond the limit on file sizes (ulimit -f), or to a pipe from
+      !> which nobody reads on, then fails as on a full disk, instead of ending the program. Deallocated memory is kept
+      !> for later arrays, instead of being given back to the system. OpenBLAS uses one thread: its default, all
+      !> processors, saves no time for the small matrices here.
       !>
       !> N.B. These settings hold for the whole process: programs may call this procedure, a library must not.
       subroutine prepare_process() bind(c, name='wavycon_prepare_process')

@@ -43,6 +43,12 @@ static size_t input_count;
 /* The first errno of writing to standard output; 0 without one. */
 static int print_trouble;
 
+/* The errno of a failed write to a stream. None if nobody reads on from standard output, as in `wavycon ... | head`. */
+static int trouble_of(const FILE *stream)
+{
+    return stream == stdout && errno == EPIPE ? 0 : errno;
+}
+
 /* Whether two records of stat are those of the same file. */
 static int is_same(const struct stat *one, const struct stat *other)
 {
@@ -175,7 +181,7 @@ struct written_file *wavycon_open_written(const char *path)
 int wavycon_put_bytes(struct written_file *file, const void *bytes, size_t number)
 {
     if (file != NULL && file->trouble == 0 && fwrite(bytes, 1, number, file->stream) < number)
-        file->trouble = errno;
+        file->trouble = trouble_of(file->stream);
     return file == NULL ? ENOMEM : file->trouble;
 }
 
@@ -190,7 +196,7 @@ int wavycon_end_written(struct written_file *file, int is_complete, int stays_op
            network's file system reports a full disk only then. */
         int lock = dup(fileno(file->stream));
         if ((is_closed ? fclose(file->stream) : fflush(file->stream)) != 0 && trouble == 0)
-            trouble = errno;
+            trouble = is_closed ? errno : trouble_of(file->stream);
         if (file->part[0] != '\0' && trouble == 0 && is_complete)
             trouble = wavycon_rename(file->part, file->name);
         if (file->part[0] != '\0' && (trouble != 0 || !is_complete))
@@ -208,7 +214,7 @@ int wavycon_end_written(struct written_file *file, int is_complete, int stays_op
 void wavycon_print(const char *text)
 {
     if ((fputs(text, stdout) < 0 || fflush(stdout) != 0) && print_trouble == 0)
-        print_trouble = errno;
+        print_trouble = trouble_of(stdout);
 }
 
 /* The first errno of writing to standard output; 0 without one, and if standard output is closed, as nobody wants it.

@@ -238,7 +238,7 @@ contains
    pure logical function has_commas(path)
       character(*), intent(in) :: path
 
-      has_commas = index(lower_case(path), comma_ending, back=.true.) == len(path) - len(comma_ending) + 1
+      has_commas = lower_case(path(max(1, len(path) - len(comma_ending) + 1):)) == comma_ending
    end function has_commas
 
    !> Reads a summary: a head whose last line has the units, a line of names, and rows. Errors: exit_file_trouble.

@@ -1,15 +1,17 @@
 !> Reads the command line, and makes the text of --help.
 module wavycon_command_line
+   use wavycon_deck_groups, only: list_keys, number_of_groups
    use wavycon_deck_text, only: at_end, is_comma, next_token, token_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_group, only: key_group, key_list, key_value
-   use wavycon_key_reference, only: add_wrapped, group_names, key_names, key_reference
+   use wavycon_key_reference, only: add_wrapped, key_reference
    use wavycon_key_table, only: integer_value, key_type, logical_value, name_length, text_value
    use wavycon_key_values, only: must_be, read_value, word_value
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, int64
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_output_group, only: longest_directory
    use wavycon_plain_text, only: escaped, integer_text, listed, lower_case, newline, quoted
+   use wavycon_scene, only: scene_type
    use wavycon_settings, only: read_setting, setting_type
    implicit none (type, external)
    private
@@ -208,7 +210,7 @@ contains
 
       number = size(decks)
       do i = 1, size(sweeps)
-         if (number <= most_runs) number = number*size(sweeps(i)%values)
+         number = int(min(most_runs + 1_int64, int(number, int64)*size(sweeps(i)%values)))
       end do
       if (number > most_runs) then
          call fatal_error(error, exit_bad_input, '--sweep: more than '//integer_text(most_runs)//' runs')
@@ -235,11 +237,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: found, group, key, word
-      character(name_length), allocatable :: groups(:), keys(:)
-      integer :: point, r
+      character(name_length) :: groups(number_of_groups)
+      character(name_length), allocatable :: keys(:)
+      integer :: i, point, r
+      type(key_list) :: lists(number_of_groups)
+      type(scene_type), target :: no_scene   ! records without values, to which the lists point
 
       text = ''
-      groups = group_names()
+      call list_keys(no_scene, lists)
+      groups = lists%name
       do r = 1, size(command_line%runs)
          word = lower_case(command_line%runs(r)%path)
          if (index(word, '&') == 1) word = word(2:)
@@ -255,11 +261,11 @@ contains
          text = text//found
          if (found /= '') cycle
          if (point > 0 .and. any(groups == group) .and. key /= 'nml') then
-            keys = key_names(group)
+            keys = lists(findloc(groups == group, .true., dim=1))%rows%name
             call fatal_error(error, exit_bad_input, "--help: there is no key '"//escaped(key)//"' in &"//group// &
                              did_you_mean(key, keys, '', '', '; its keys are '//listed(keys, ' and ')))
          else if (scan(word, './') == 0) then
-            keys = key_names('')
+            keys = [(lists(i)%rows%name, i=1, size(lists))]
             call fatal_error(error, exit_bad_input, "--help: there is no group or key '"//escaped(word)//"'"// &
                              did_you_mean(word, [groups, keys], '', '', '; groups are '//listed(groups, ' and ')))
          end if

@@ -11,7 +11,7 @@ module wavycon_key_reference
    implicit none (type, external)
    private
 
-   public :: add_wrapped, group_names, key_json, key_names, key_reference
+   public :: add_wrapped, key_json, key_reference
 
    integer, parameter, public :: widest_line = 100
 
@@ -19,33 +19,6 @@ module wavycon_key_reference
    character(*), parameter :: type_names(*) = ['real   ', 'integer', 'logical', 'text   ', 'choice ']
 
 contains
-
-   !> The names of all groups.
-   function group_names() result(names)
-      character(name_length) :: names(number_of_groups)
-
-      type(key_list) :: lists(number_of_groups)
-      type(scene_type), target :: no_scene   ! records without values, to which the lists point
-
-      call list_keys(no_scene, lists)
-      names = lists%name
-   end function group_names
-
-   !> The names of the keys of a group, or of all groups.
-   function key_names(group) result(names)
-      character(*), intent(in) :: group   !! name of the group; '': all groups
-      character(name_length), allocatable :: names(:)
-
-      type(key_list) :: lists(number_of_groups)
-      type(scene_type), target :: no_scene   ! records without values, to which the lists point
-      integer :: i
-
-      call list_keys(no_scene, lists)
-      allocate (names(0))
-      do i = 1, size(lists)
-         if (group == '' .or. lists(i)%name == group) names = [names, lists(i)%rows%name]
-      end do
-   end function key_names
 
    !> The reference as text: lines of at most `widest_line` characters, each with a newline; empty if there is no such
    !> group or key.

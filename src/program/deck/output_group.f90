@@ -41,7 +41,7 @@ contains
       call keys%add(values%directory, key_type(text_value, 'directory', "'outputs/<case>'", '', &
          'Where the results go, relative to where the program is started; made if it is not there.', &
          longest=longest_directory))
-      call all_tables(tables, without_adhesion=.true.)
+      call all_tables(tables)
       do i = 1, size(tables)
          if (tables(i)%key == '' .or. tables(i)%group /= 'output') cycle
          call keys%add(values%tables(i), key_type(logical_value, tables(i)%key, '.false.', '', tables(i)%meaning))

@@ -74,13 +74,14 @@ contains
    contains
 
       !> Reports a label of a unit that has blanks or brackets: tables have all units in one line, in brackets and
-      !> separated by blanks.
+      !> separated by blanks. Tables in memory mark columns of integers by '#' and of words by 'word'.
       subroutine check_unit(unit, name)
          type(key_value), intent(in) :: unit
          character(*), intent(in) :: name
 
-         if (scan(unit%text, ' []') > 0 .and. .not. unit%is_bad) call values%complain(unit, &
-            name//" must have no blanks and no brackets, such as 'mm' or 'N/mm^2'")
+         if ((scan(unit%text, ' []') > 0 .or. unit%text == '#' .or. unit%text == 'word') .and. .not. unit%is_bad) &
+            call values%complain(unit, name//" must have no blanks and no brackets and be neither '#' nor 'word', "// &
+                                 "such as 'mm' or 'N/mm^2'")
       end subroutine check_unit
 
    end subroutine check_scene_group

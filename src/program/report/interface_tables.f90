@@ -95,7 +95,7 @@ contains
 
       type(quantities) :: stick_slopes   ! derivatives at the mean pressure P* of the stick contact
       integer :: i
-      real(dp) :: displacement(2), energy(2), stiffness
+      real(dp) :: displacement(2), energy(2), over_limit, stiffness
       real(dp) :: of_stick(3)   ! stick contact: mean pressure [p*], area fraction and its error
 
       associate (solution => results%loads(load), setting => results%scene%interface_setting, &
@@ -106,6 +106,9 @@ contains
                displacement = not_a_number()
                energy = not_a_number()
                of_stick = not_a_number()
+               over_limit = not_a_number()
+               if (solution%pbar_over_pstar > 0.0_dp) &
+                  over_limit = slip%tangential/(setting%friction*solution%pbar_over_pstar)
                if (stick%has_numbers()) then
                   of_stick = [results%in_p_star(stick%pbar_over_pstar), stick%value(contact_area), &
                               or_nan(stick%error(contact_area))]
@@ -123,8 +126,7 @@ contains
                   end associate
                end if
                call file%put_row([real(dp) :: load, i, results%mean_pressure(load), p_star*slip%tangential, &
-                                  slip%tangential/(setting%friction*solution%pbar_over_pstar), of_stick(1), &
-                                  solution%value(contact_area), of_stick(2:), &
+                                  over_limit, of_stick(1), solution%value(contact_area), of_stick(2:), &
                                   setting%kappa(1)*displacement, setting%kappa(2:)*displacement(1), stiffness, &
                                   energy, status_code(slip%status)], [status_name(slip%status)])
             end associate

@@ -12,8 +12,9 @@ module wavycon_memory_table
    !> The kinds of values that a column has.
    integer, parameter, public :: of_reals = 1, of_integers = 2, of_words = 3
 
-   !> Most bytes of the name or the unit of a column, and of a word in a table.
-   integer, parameter, public :: longest_column = 48
+   !> Most bytes of the name or the unit of a column, such as that of an energy, which is made of labels of a pressure
+   !> and of lengths of at most 20 bytes each; and of a word in a table.
+   integer, parameter, public :: longest_column = 64
    integer, parameter, public :: longest_word = 32
    !> Rows for which a new table has memory.
    integer, parameter :: first_rows = 64

@@ -287,13 +287,14 @@ contains
       character(40) :: names(3)
       character(:), allocatable :: in_unit
       integer :: body, load
-      real(dp) :: depth_unit, stress_unit
+      real(dp) :: depth_unit, sides(2), stress_unit
       type(log_line) :: line
 
       associate (scene => results%scene, surface => results%solver%surface)
          in_unit = '['//scene%pressure_unit//']'
          stress_unit = 1.0_dp
-         depth_unit = 1.0_dp
+         sides = surface%sides()
+         depth_unit = surface%length(1)/sides(1)
          names = [character(40) :: 'vMises/p*', 'depth/cell', 'shear/p*']
          if (surface%has_free_edges) then
             stress_unit = scene%p_star

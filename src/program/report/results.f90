@@ -9,7 +9,7 @@ module wavycon_results
    use wavycon_head_lines, only: head_lines
    use wavycon_kinds, only: dp, ieee_is_finite, ieee_is_nan, not_a_number
    use wavycon_largest_stress, only: largest_stress
-   use wavycon_memory_table, only: column_list, column_type, memory_table
+   use wavycon_memory_table, only: column_list, column_type, longest_column, memory_table
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: exact_number, integer_text
@@ -27,9 +27,6 @@ module wavycon_results
    !> The tables of a run whose status says whether a load was solved as requested.
    character(*), parameter, public :: status_tables(4) = [character(14) :: 'summary', 'stress_largest', &
       'partial_slip', 'adhesion']
-
-   !> Most bytes of the label of a unit, with '1/' before it or '^2' after it.
-   integer, parameter :: longest_unit = 24
 
    type :: results_type
       type(scene_type), allocatable :: scene
@@ -150,7 +147,7 @@ contains
    elemental recursive function unit_in_words(self, unit) result(words)
       class(results_type), intent(in) :: self
       character(*), intent(in) :: unit   !! such as '1/length'
-      character(longest_unit) :: words
+      character(longest_column) :: words
 
       character(8), parameter :: names(*) = [character(8) :: 'length', 'pressure', 'area', 'force']
       character(:), allocatable :: label

@@ -219,7 +219,7 @@ contains
          ! The pressure of a truncated series oscillates about zero outside the contact. The edge of its contact is
          ! therefore the isobar p = edge_level p*.
          least = 0.0_dp
-         if (scene%method%edge_level%is_given) least = scene%method%edge_level%number
+         if (scene%method%edge_level%in_effect) least = scene%method%edge_level%number
          call make_histogram(pressure, pressure > least, bins, is_continuous, pressures)
          call make_histogram(gap, .not. pressure > least, bins, is_continuous, gaps)
       end associate

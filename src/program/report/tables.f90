@@ -31,20 +31,15 @@ module wavycon_tables
 contains
 
    !> All tables, in the order in which they are written.
-   subroutine all_tables(tables, without_adhesion)
+   subroutine all_tables(tables)
       type(table_type), allocatable, intent(out) :: tables(:)
-      !> Whether to leave out the last tables, those of the contact with adhesion, which have no keys; absent: .false.
-      logical, intent(in), optional :: without_adhesion
 
       type(table_type), allocatable :: of_adhesion(:)
       integer :: i
 
       tables = [summary_tables(), line_tables(), map_tables(), spot_tables(), theory_tables(), surface_tables(), &
                 stress_tables(), interface_tables(), bounds_tables()]
-      if (present(without_adhesion)) then
-         if (without_adhesion) return
-      end if
-      ! The fields of the contact with adhesion get tables of their own, beside the tables without adhesion.
+      ! The fields of the contact with adhesion get tables of their own, without keys, beside those without adhesion.
       ! Largest stresses are not among them: they are infinite at the edge.
       of_adhesion = pack(tables, tables%key == 'lines' .or. tables%key == 'map' .or. tables%key == 'contours' .or. &
                          (tables%group == 'stress' .and. tables%key /= 'largest'))

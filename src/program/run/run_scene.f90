@@ -8,13 +8,13 @@ module wavycon_run_scene
    use wavycon_methods, only: start_solver, traits_of
    use wavycon_notes, only: show_loads, show_scene, show_stresses, sum_up
    use wavycon_output_file, only: output_file
-   use wavycon_plain_text, only: escaped, integer_text, newline, short_number
+   use wavycon_plain_text, only: escaped, integer_text, newline, quoted, short_number
    use wavycon_read_deck, only: read_deck
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_percolation, by_pressure, by_yield, scene_type
    use wavycon_settings, only: setting_type
-   use wavycon_solve_loads, only: find_interface, find_stresses, order_loads, solve_loads
+   use wavycon_solve_loads, only: find_interface, find_stresses, note_interface, order_loads, solve_loads
    use wavycon_spot_tables, only: say_percolation
    use wavycon_system, only: full_path, has_memory_for, make_directories
    use wavycon_table, only: table_type
@@ -84,7 +84,7 @@ contains
 
       if (directory /= '') then
          allocate (settings(1))
-         settings(1) = setting_type('output', 'directory', directory)
+         settings(1) = setting_type('output', 'directory', quoted(directory))
       end if
       status = exit_fine
       allocate (scene)
@@ -143,6 +143,7 @@ contains
       type(run_log), intent(inout) :: logger
       type(error_type), allocatable, intent(out) :: error
 
+      character(*), parameter :: subjects(2) = ['slip    ', 'adhesion']   ! what &interface may ask for
       logical :: are_distributed, by_all(size(tables))
       integer :: i
 
@@ -165,7 +166,12 @@ contains
             call logger%say_timed('largest stresses found')
             call show_stresses(results, logger)
          end if
-         if (allocated(results%scene%interface_setting)) call find_interface(results, logger, '')
+         if (allocated(results%scene%interface_setting)) then
+            do i = 1, size(subjects)
+               call find_interface(results, logger, subjects(i))
+               call note_interface(results, logger, subjects(i))
+            end do
+         end if
          if (any(tables%file == 'spots')) call say_percolation(results, logger)
       end if
       do i = 1, size(tables)

@@ -26,7 +26,7 @@ module wavycon_solve_loads
    implicit none (type, external)
    private
 
-   public :: find_interface, find_stresses, order_loads, solve_loads, solve_target
+   public :: find_interface, find_stresses, note_interface, order_loads, solve_loads, solve_target
 
    !> Number of loads of a block, if loads are distributed and each starts from the solution of the last one. The first
    !> load of a block starts without a solution. As the blocks do not depend on the number of ranks, the digits do not
@@ -180,69 +180,94 @@ contains
          'grid_points')
    end subroutine find_stresses
 
-   !> Solves partial slip under all loads and tangential loads, and the contact with adhesion, as far as the deck asks
-   !> for them.
+   !> Solves partial slip under all loads and tangential loads, or the contact with adhesion, if the deck asks for it.
+   !>
+   !> N.B. Other threads may be in the library meanwhile (c_lock.c): no function that returns a text is called unless
+   !> the progress is shown.
    subroutine find_interface(results, logger, table)
       type(results_type), intent(inout) :: results   !! with a group &interface and all loads solved with their fields
       type(run_log), intent(inout) :: logger         !! shows the progress
-      character(*), intent(in) :: table              !! name of the one table that needs the results; '': all tables
+      character(*), intent(in) :: table              !! name of a table that needs the results: with 'slip', 'adhesion'
 
       associate (setting => results%scene%interface_setting)
-         if (setting%friction > 0.0_dp .and. (table == '' .or. index(table, 'slip') > 0)) then
-            call find_slip(results, logger)
+         if (setting%friction > 0.0_dp .and. index(table, 'slip') > 0) call find_slip(results, logger)
+         if (setting%work > 0.0_dp .and. index(table, 'adhesion') > 0) call find_adhesion(results)
+      end associate
+   end subroutine find_interface
+
+   !> Writes to the log what find_interface has found for a table.
+   subroutine note_interface(results, logger, table)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: logger
+      character(*), intent(in) :: table   !! as in find_interface
+
+      associate (setting => results%scene%interface_setting)
+         if (setting%friction > 0.0_dp .and. index(table, 'slip') > 0) then
+            call note_slip(results, logger)
             call logger%say_timed('partial slip solved')
          end if
-         if (setting%work > 0.0_dp .and. (table == '' .or. index(table, 'adhesion') > 0)) then
-            call find_adhesion(results, logger)
+         if (setting%work > 0.0_dp .and. index(table, 'adhesion') > 0) then
+            call note_adhesion(results, logger)
             call logger%say_timed('adhesion solved')
          end if
       end associate
-   end subroutine find_interface
+   end subroutine note_interface
 
    !> Solves partial slip under all loads and tangential loads.
    subroutine find_slip(results, logger)
       type(results_type), intent(inout) :: results   !! gets `slip`
       type(run_log), intent(inout) :: logger
 
-      integer :: bad, i, load
+      integer :: i, load
       real(dp) :: tangential
 
       associate (setting => results%scene%interface_setting)
-         if (abs(setting%beta) > 0.0_dp) call logger%note('partial slip neglects the coupling of normal and '// &
-            "tangential displacements of unlike bodies, Dundurs' beta = "//short_number(setting%beta))
          allocate (results%slip(size(setting%tangential), size(results%loads)))
          do load = 1, size(results%loads)
             associate (solution => results%loads(load))
                do i = 1, size(setting%tangential)
-                  call logger%say_progress('partial slip of '//integer_text(load)//' of '// &
-                                           integer_text(size(results%loads))//' loads')
+                  if (logger%is_due()) call logger%say_progress('partial slip of '//integer_text(load)//' of '// &
+                                                                integer_text(size(results%loads))//' loads')
                   tangential = setting%tangential(i)
                   if (setting%over_mean_pressure) tangential = tangential*solution%pbar_over_pstar
                   call solve_partial_slip(results%solver, setting%friction, solution, tangential, &
                                           results%scene%interface%slip_loop%is_true, results%slip(i, load))
-                  if (results%slip(i, load)%slides) call logger%note( &
-                     'under load '//integer_text(load)//' tangential load '//integer_text(i)// &
-                     ' is more than friction times the mean pressure: the bodies slide')
                end do
             end associate
+         end do
+      end associate
+   end subroutine find_slip
+
+   !> Notes where the bodies slide, and what is doubtful of partial slip.
+   subroutine note_slip(results, logger)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: logger
+
+      integer :: bad, i, load
+
+      associate (beta => results%scene%interface_setting%beta)
+         if (abs(beta) > 0.0_dp) call logger%note('partial slip neglects the coupling of normal and '// &
+            "tangential displacements of unlike bodies, Dundurs' beta = "//short_number(beta))
+         do load = 1, size(results%slip, 2)
+            do i = 1, size(results%slip, 1)
+               if (results%slip(i, load)%slides) call logger%note( &
+                  'under load '//integer_text(load)//' tangential load '//integer_text(i)// &
+                  ' is more than friction times the mean pressure: the bodies slide')
+            end do
          end do
          bad = count(.not. (results%slip%slides .or. is_good_status(results%slip%status)))
          if (bad > 0) call logger%note('partial slip is NOT solved as requested under '//integer_text(bad)//' of '// &
             integer_text(size(results%slip))//' tangential loads, see the status in partial_slip')
       end associate
-   end subroutine find_slip
+   end subroutine note_slip
 
    !> Computes the curve of the contact with adhesion and its contacts at the deck's loads. Mean pressures, gaps,
    !> approaches or areas of the deck are those of the contact with adhesion. A session, which calls this for each of
    !> its tables, follows a curve that takes time only once.
-   subroutine find_adhesion(results, logger)
+   subroutine find_adhesion(results)
       type(results_type), intent(inout) :: results   !! gets `adhesion` and `adhesive_loads`
-      type(run_log), intent(inout) :: logger
 
-      integer, parameter :: without_edge(*) = [separated, closed]
-      character(:), allocatable :: words   ! load and area of a critical point; with free edges the load is a force
-      integer :: bad, given, i, number   ! given: which value of a point on the curve the loads give
-      real(dp) :: mean_pressure
+      integer :: given, i   ! given: which value of a point on the curve the loads give
       logical :: is_followed
       real(dp), allocatable :: loads(:)
 
@@ -272,6 +297,20 @@ contains
             call add_load(curve, given, loads(i), i)
             call find_adhesive_solution(curve, given, i, results%adhesive_loads(i))
          end do
+      end associate
+   end subroutine find_adhesion
+
+   !> Writes to the log how the contacts with adhesion are, and the critical points of their curve.
+   subroutine note_adhesion(results, logger)
+      type(results_type), intent(in) :: results
+      type(run_log), intent(inout) :: logger
+
+      integer, parameter :: without_edge(*) = [separated, closed]
+      character(:), allocatable :: words   ! load and area of a critical point; with free edges the load is a force
+      integer :: bad, i, number
+      real(dp) :: mean_pressure
+
+      associate (curve => results%adhesion, surface => results%solver%surface)
          call logger%say('adhesion: the contacts of the loads are in the table of adhesion, those above are without it')
          bad = count(.not. is_good_status(curve%at_loads%status))
          if (bad > 0) call logger%note('adhesion is NOT solved as requested at '//integer_text(bad)//' of '// &
@@ -279,7 +318,7 @@ contains
          do i = 1, size(without_edge)
             number = count(curve%at_loads%kind == without_edge(i))
             if (number > 0) call logger%say('adhesion: '//trim(point_names(without_edge(i)))//' at '// &
-               integer_text(number)//' of '//integer_text(size(loads))//' loads')
+               integer_text(number)//' of '//integer_text(size(results%loads))//' loads')
          end do
          if (any(curve%critical%status == not_found)) call logger%note('adhesion: NOT all jumps and pull-offs are '// &
             'found, see the status of the critical points in adhesion')
@@ -296,6 +335,6 @@ contains
             end associate
          end do
       end associate
-   end subroutine find_adhesion
+   end subroutine note_adhesion
 
 end module wavycon_solve_loads

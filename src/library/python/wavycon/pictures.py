@@ -121,6 +121,8 @@ def plot_stress_section(result: Result, column: str = "von_mises", ax: Any = Non
     through the crest, on matplotlib's Axes, and returns these. style: options of pcolormesh."""
     rows, facts = result.table("stress_section"), result._facts
     rows = rows[rows["body"] == 1]
+    # Each place once, depths rising, in whatever order they were given.
+    rows = rows[np.unique(rows[["depth", "distance"]], return_index=True)[1]]
     depth, distance = np.unique(rows["depth"]), np.unique(rows["distance"])
     (factor, words), (by, across) = scaled(facts, column), scaled(facts, "distance")
     values = factor*surfaces.column(rows, column).reshape(len(depth), len(distance))

@@ -70,6 +70,8 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
             deck, title, settings = combinations[number]
             table = Path(own, f"{number}.csv")
             sets = [f"--set={key}={value_text(key, value)}" for key, value in settings.items()]
+            # In a folder of its own a run needs no name with all its values, which may be too long for one.
+            sets += ["--set=scene.case=run"]*(not directory and "scene.case" not in map(str.lower, settings))
             output = Path(directory or own, "" if directory else str(number))
             with subprocess.Popen([program(), deck, *sets, f"--output={output}", f"--table={table}"], text=True,
                                   errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -78,7 +80,7 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
                 log, message = process.communicate()
                 message = message.strip() or "\n".join(re.findall("^note: (.*)$", log, re.MULTILINE))
             if table.exists():
-                rows = pandas.read_csv(table, dtype=str).loc[:, "load":].apply(typed)
+                rows = pandas.read_csv(table, dtype=str, keep_default_na=False).loc[:, "load":].apply(numbers)
                 heads = [head.rstrip("]").partition("[") for head in rows]
                 units.update({column: unit or "-" for column, _, unit in heads})
                 rows.columns = [column for column, *_ in heads]
@@ -104,11 +106,11 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
     return frame
 
 
-def typed(column: Any) -> Any:
-    """A column of texts, as numbers where all are: pandas before 3 reads numbers with errors in the last digit."""
-    for kind in (int, float):
+def numbers(column: Any) -> Any:
+    """A column of texts as numbers, if all are: as Python reads them, to the last digit."""
+    for kind in int, float:
         with contextlib.suppress(ValueError):
-            return column.astype(kind)
+            return column.map(kind)
     return column
 
 
