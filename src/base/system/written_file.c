@@ -151,13 +151,12 @@ static FILE *open_part(struct written_file *file, const char *path)
     const char *slash = strrchr(file->name, '/'), *base = slash == NULL ? file->name : slash + 1;
     snprintf(file->part, sizeof file->part, "%.*s.%s%s%ld.part", (int)(base - file->name), file->name, base, host(),
              (long)getpid());
+    wavycon_remove_when_interrupted(file->part); /* first, as the signal may come as soon as the file is there */
     do
         number = open(file->part, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     while (number >= 0 && flock(number, LOCK_EX) == 0 && fstat(number, &info) == 0 && info.st_nlink == 0 &&
            close(number) == 0);
-    if (number >= 0)
-        wavycon_remove_when_interrupted(file->part);
-    else
+    if (number < 0)
         file->part[0] = '\0';
     return number < 0 ? NULL : fdopen(number, "w");
 }
