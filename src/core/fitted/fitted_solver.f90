@@ -278,8 +278,7 @@ contains
          if (now%pool) self%slopes(:2, 0) = [of_unknown, -lattice%troughs*of_integral]
       end associate
       self%changes(1) = change
-      self%decay(1) = 1.0_dp
-      if (self%changes(2) > 0.0_dp) self%decay(1) = max(decay, change/self%changes(2))
+      self%decay(1) = max(decay, min(change/max(self%changes(2), tiny(change)), 1.0_dp))
    end subroutine find_newest
 
    !> Gives an answer the newest slopes and their errors.

@@ -23,8 +23,6 @@ module wavycon_gauss_newton
       real(dp) :: residual = 0.0_dp       !! largest residual before the step [Delta, for a pool pi E* Delta/s]
       real(dp) :: misfit = 0.0_dp         !! as of least_squares_step
       integer :: iterations = 0           !! number of steps at all degrees
-      !> The last step at this degree, as the equations give it and as it was taken; not allocated before the first one.
-      real(dp), allocatable, private :: last(:), last_taken(:)
       logical :: valid = .false.          !! whether the step is finite and the new shape is not about to fold
    contains
       procedure :: solve
@@ -61,7 +59,6 @@ contains
       integer :: i
 
       self%change = huge(1.0_dp)
-      if (allocated(self%last)) deallocate (self%last)
       do i = 1, most_newton_steps
          change_before = self%change
          call self%step(equations, lattice, now)
@@ -77,18 +74,15 @@ contains
    end subroutine solve
 
    !> Takes one step, README.md (F40): minimise || residual - matrix*step ||_2. For a spot the step is subject to
-   !> load_row*step = missing load, with adhesion to the missing area, (F69). With adhesion the secant of the last two
-   !> steps corrects it, (F69a). A step whose relative change of the shape is larger than `longest_shape_change` is
-   !> shortened to this change.
+   !> load_row*step = missing load, with adhesion to the missing area, (F69). A step whose relative change of the shape
+   !> is larger than `longest_shape_change` is shortened to this change.
    subroutine step(self, equations, lattice, now)
       class(newton_steps), intent(inout) :: self
       type(contact_equations), intent(inout) :: equations  !! started for fitted functions like `now`
       type(wave_lattice), intent(in) :: lattice
       type(fitted_function), intent(inout) :: now          !! the iterate; unchanged if the step is not finite
 
-      real(dp) :: missing
-      real(dp), dimension(equations%unknowns) :: taken, turn, whole
-      integer :: first   ! of the unknowns of the shape
+      real(dp) :: missing, whole(equations%unknowns)
       logical :: finite
 
       call equations%linearise(lattice, now)
@@ -106,19 +100,8 @@ contains
       end if
       call least_squares_step(equations, now, equations%residual, missing, whole, self%misfit, finite)
       if (.not. finite) return
-      first = equations%before_shape + 1
-      self%change = maxval(abs(whole(first:)))/now%shape%b(0)
-      taken = whole
-      if (now%work > 0.0_dp .and. allocated(self%last)) then
-         ! (F69a): steps that overshoot are nearly opposite to each other.
-         turn = whole - self%last
-         taken = whole - dot_product(whole(first:), turn(first:))/max(sum(turn(first:)**2), tiny(1.0_dp)) &
-                 *(self%last_taken + turn)
-      end if
-      taken = min(1.0_dp, longest_shape_change/max(self%change, tiny(1.0_dp)))*taken
-      self%last = whole
-      self%last_taken = taken
-      call add_step(now, taken)
+      self%change = maxval(abs(whole(equations%before_shape + 1:)))/now%shape%b(0)
+      call add_step(now, min(1.0_dp, longest_shape_change/max(self%change, tiny(1.0_dp)))*whole)
       self%valid = now%shape%b(0) > 0.0_dp &
          .and. now%shape%jacobian((0.0_dp, 0.0_dp)) > least_centre_jacobian*now%shape%b(0)**2
    end subroutine step
