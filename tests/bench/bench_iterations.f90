@@ -6,7 +6,7 @@
 !> grids, each weighted by its points over those of the last; and pairs of transforms, weighted likewise. The last line
 !> has the most iterations on a last grid.
 module bench_iteration_count
-   use wavycon_kinds, only: dp, pi
+   use wavycon_kinds, only: dp
    use wavycon_solver_progress, only: solver_progress
    implicit none (type, external)
 
@@ -38,7 +38,7 @@ program bench_iterations
    use bench_iteration_count, only: grids, iteration_count, numbers, sides
    use wavycon_error, only: error_type
    use wavycon_grid_sequence, only: sequence_answer, solve_by_sequence
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, pi
    use wavycon_map_statistics, only: map_statistics
    use wavycon_quantities, only: contact_area_counted
    use wavycon_self_affine, only: self_affine_spectrum, self_affine_surface
