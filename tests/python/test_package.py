@@ -902,10 +902,12 @@ class Files(PackageTest):
     def test_heads_in_the_language_of_gwyddions_user(self):
         """SurfaceTopography finds in some languages the sides but no unit, or the unit but no sides."""
         h = numpy.random.default_rng(1).normal(size=(6, 8))
-        for words in (("Kanal", "Breite", "Höhe", "Werteinheiten"), ("Canal", "Ancho", "Alto", "Unidades de valor"),
-                      ("Channel", "Width", "Height", "Value units")):
+        for words in (("Kanal", "Breite", "Höhe", "Werteinheiten"), ("\ufeff# Kanal", "Breite", "Höhe", "Werteinheiten"),
+                      ("Canal", "Ancho", "Alto", "Unidades de valor"), ("Channel", "Width", "Height", "Value units")):
             head = "\n".join(f"{word}: {value}" for word, value in zip(words, ("Topo", "20.0 µm", "15.0 µm", "nm")))
             numpy.savetxt("scan.txt", h, header=head, encoding="utf-8")
+            text = pathlib.Path("scan.txt").read_text(encoding="utf-8").replace("# \ufeff", "\ufeff")   # a mark is first
+            pathlib.Path("scan.txt").write_text(text, encoding="utf-8")
             one = wc.solve(wc.read("scan.txt", length_unit="um"), pbar_over_pstar=0)
             self.assertEqual("um", one.length_unit)
             self.assertAlmostEqual(1e-3*h.std(), one.surface.rms_height, delta=1e-9)
