@@ -8,10 +8,11 @@ from picture import AREA, DELTA, GAP, MEAN_GAP, MOST_CURVES, OVER, P, P_BAR, P_M
     CannotBeDrawn, Quantity, entry, mean_pressure_axis
 from table import Table
 
-# Converged values: of the tree, or where these files are installed.
-PLACES = [folder/"reference" for place in pathlib.Path(__file__).resolve().parents[1:3]
-          for folder in (place, place/"outputs")]
-REFERENCE = next(filter(pathlib.Path.is_dir, PLACES), PLACES[0])/"wave_2d.dat"
+# Converged values, of the tree or, installed, beside this folder.
+HERE = pathlib.Path(__file__).resolve().parent
+REFERENCE = HERE.parent.parent/"outputs"/"reference"/"wave_2d.dat"
+if not REFERENCE.is_file():
+    REFERENCE = HERE.parent/"reference"/"wave_2d.dat"
 # The status of a load that is not accurate. Below are those of solutions, above those of loads that are not solved.
 NOT_ACCURATE = 10
 NO_UNIT = ("", "-", "#")   # units of columns without one

@@ -64,7 +64,7 @@ contains
       type(c_call) :: this
 
       if (this%begins(error, scene, 'scene')) then
-         ignored = await_solve(this%contents%scene%is_solving)   ! another thread may just call the function
+         ignored = await_solve(this%contents%scene%is_solving)   ! another thread's solve may be calling it
          associate (progress => this%contents%progress, solver => this%contents%scene%results%solver)
             nullify (progress%callback, solver%progress)
             progress%data = user_data

@@ -12,12 +12,12 @@ import sys
 import time
 
 sys.dont_write_bytecode = True
-# After nohup, or in the background of a script, these signals are ignored, and so they would be in all that a part starts.
-signal.signal(signal.SIGINT, signal.default_int_handler)
-signal.signal(signal.SIGHUP, signal.SIG_DFL)
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent/"support"))
+from program import hear_signals  # noqa: E402
 from rough_map import rough_map  # noqa: E402, F401
 from tables import Table  # noqa: E402
+
+hear_signals()
 
 SECONDS = 2.0  # most processor time of a deck that needs little work [s]
 PATIENCE = 60.0  # a run that takes longer, also on a busy machine, is killed and counts as hanging [s]

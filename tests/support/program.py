@@ -13,10 +13,6 @@ import unittest
 
 SKIPPED = 77  # exit status of a test that cannot run here; ctest shows it
 
-# After nohup, or in the background of a script, these signals are ignored, and so they would be in all that a test starts.
-signal.signal(signal.SIGINT, signal.default_int_handler)
-signal.signal(signal.SIGHUP, signal.SIG_DFL)
-
 
 class ProgramTest(unittest.TestCase):
     """Tests of the program, in a folder of the class."""
@@ -59,7 +55,14 @@ def skip(reason):
     sys.exit(SKIPPED)
 
 
+def hear_signals():
+    """After nohup, or in the background of a script, these signals are ignored, also by all that a test starts."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
 def main():
     """Runs the tests of a file by `FILE --program WAVYCON [unittest's options]`."""
+    hear_signals()
     ProgramTest.program = str(pathlib.Path(take_options("program").program).resolve())
     unittest.main()

@@ -79,9 +79,9 @@ class Surface:
                             "an array")
         maps = [one if one.heights is not None else one.prepared() for one in (self, other)]
         # A map without sides or unit has those of the other one. A file that has sides refuses others.
-        for place, (one, more) in enumerate(zip((self, other), tuple(maps[::-1]))):
+        for place, (one, more) in enumerate(zip((self, other), maps[::-1])):
             sides = {side: more.keys[side] for side in SIDES if side in more.keys}
-            if one.heights is None:
+            if one.heights is None and any(maps[place].keys.get(side) != sides[side] for side in sides):
                 with contextlib.suppress(ValueError):
                     maps[place] = dataclasses.replace(one, keys={**sides, **one.keys}).prepared()
             own = maps[place]
