@@ -85,7 +85,9 @@ contains
 
       character(24) :: time
 
-      write (time, '(a, f9.3, a)') '[', self%elapsed(), ' s] '
+      write (time, '(a, f9.3, a)') '[', self%elapsed(), ' s]'
+      ! From 27.8 hours on nine characters do not hold the time.
+      if (index(time, '*') > 0) write (time, '(a, i9, a)') '[', int(self%elapsed(), int64), ' s]'
       call self%say(trim(time)//' '//line)
    end subroutine say_timed
 

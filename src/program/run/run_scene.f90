@@ -84,7 +84,9 @@ contains
 
       if (directory /= '') then
          allocate (settings(1))
-         settings(1) = setting_type('output', 'directory', quoted(directory))
+         settings(1)%group = 'output'
+         settings(1)%key = 'directory'
+         settings(1)%value = quoted(directory)   ! gfortran loses memory where a constructor calls the function
       end if
       status = exit_fine
       allocate (scene)
