@@ -75,10 +75,7 @@ A = 'contact_area_fraction'
 w = '{/:Italic w}/('.p_star.' '.Delta.')'
 
 # Left: area against load. Under the largest work of adhesion no spots are stable.
-set lmargin at screen 0.07
-set rmargin at screen 0.455
-set bmargin at screen 0.155
-set tmargin at screen 0.915
+eval margins(0.07, 0.455, 0.155, 0.915)
 set xlabel load offset 0, 0.3
 set ylabel '{/:Italic A} / {/:Italic A}_0' offset 0.6, 0
 set xrange [-0.4:1.05]
@@ -104,8 +101,7 @@ plot for [i = 1:5] approximate using (chosen(i) ? column(P) : NaN):A with lines 
      NaN with lines ls 5 title 'superposition'
 
 # Right: pull-off and jumps.
-set lmargin at screen 0.57
-set rmargin at screen 0.975
+eval margins(0.57, 0.975, 0.155, 0.915)
 set xlabel w
 set ylabel load offset 0.6, 0
 set xrange [0:0.5]

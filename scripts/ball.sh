@@ -22,10 +22,7 @@ set multiplot
 # Left: pressures of contact. Right of it: area and approach.
 set border 15 lw 0.7
 set tics out nomirror
-set lmargin at screen 0.075
-set rmargin at screen 0.41
-set bmargin at screen 0.16
-set tmargin at screen 0.917
+eval margins(0.075, 0.41, 0.16, 0.917)
 set xrange [10:90]
 set yrange [10:90]
 set xtics 20
@@ -48,14 +45,12 @@ unset colorbox
 
 set border 3 lw 0.7
 set logscale xy
-set lmargin at screen 0.645
-set rmargin at screen 0.99
 set xrange [0.008:6.5]
 set xtics (0.01, 0.1, 1) format '%g'
 set title
 set key bottom right samplen 2.2 font ',12'
 
-set bmargin at screen 0.58
+eval margins(0.645, 0.99, 0.58, 0.917)
 set yrange [2:5000]
 set ytics (10, 100, 1000)
 unset xlabel
@@ -63,8 +58,7 @@ set format x ''
 set ylabel 'contact area [µm²]' offset 0.4, 0
 plot all using 'force':(1e6*column('contact_area')) with linespoints ls 31 title 'rough', \
      hertz using 'force':(1e6*column('ball_contact_area')) with lines ls 2 title 'Hertz'
-set bmargin at screen 0.16
-set tmargin at screen 0.5
+eval margins(0.645, 0.99, 0.16, 0.5)
 set yrange [0.008:2]
 set ytics (0.01, 0.1, 1)
 set xtics format '%g'

@@ -11,31 +11,15 @@ lines = table('fig01', 'theory_lines')
 bottom = -2.45
 top = 0.75
 gap = "westergaard_gap_over_amplitude"
-unfold = 'plot for [k = -2:2] for [side = -1:1:2] lines index profile ' \
-   .'using (k + side*column("x")):(-column(gap)) with lines'
+unfold(profile) = sprintf('set table $pieces; plot for [k = -2:2] for [side = -1:1:2] lines index %d ', profile) \
+   .'using (k + side*column("x")):(-column(gap)) with lines; unset table'
+joined(curve) = 'set table '.curve.'; plot $pieces using 1:2 smooth unique with lines; unset table'
 set xrange [-1.25:1.25]
 set yrange [bottom:top]
-set table $pieces
-profile = 0
-@unfold
-unset table
-set table $unloaded
-plot $pieces using 1:2 smooth unique with lines
-unset table
-set table $pieces
-profile = 1
-@unfold
-unset table
-set table $complete
-plot $pieces using 1:2 smooth unique with lines
-unset table
-set table $pieces
-profile = 2
-@unfold
-unset table
-set table $partial
-plot $pieces using 1:2 smooth unique with lines
-unset table
+do for [profile = 0:2] {
+   eval unfold(profile)
+   eval joined(word('$unloaded $complete $partial', profile + 1))
+}
 stats table('fig01', 'theory') \
    using (column("load") == 3 ? column("westergaard_contact_area_fraction") : NaN) nooutput
 contact = STATS_max   # 2a/lambda of the partial contact

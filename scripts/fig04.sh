@@ -18,10 +18,7 @@ unset table
 set style fill solid noborder
 load 'scripts/unit_cell.gp'
 set key at graph 0.5, 1.025 center bottom horizontal samplen 1.5 width 1
-set lmargin screen 0.16
-set rmargin screen 0.95
-set bmargin screen 0.13
-set tmargin screen 0.92
+eval margins(0.16, 0.95, 0.13, 0.92)
 
 # Contours are labelled where they cross the line from the crest in the middle to the trough on its right.
 set style textbox opaque fillcolor rgb '#ffffff' noborder margins 0.3, 0.3

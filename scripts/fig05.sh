@@ -11,11 +11,6 @@ fine = table('fig05_fine', 'lines')
 stats lines using "pbar_over_pstar" nooutput
 loads = STATS_blocks
 
-# Panels as wide as the lines that they show are long.
-left = 0.105
-middle = 0.445
-gap = 0.05
-right = 0.98
 set yrange [-0.05:2.05]
 set ytics 0, 0.5 format '%.1f'
 set mytics 5
@@ -27,10 +22,8 @@ pressures = 'for [i = 0:loads - 1] fine index i every :::block::block using @pre
    .' for [i = 0:loads - 1] lines index i every :::block::block using @pressure with lines ls 1'
 
 set multiplot
-set bmargin screen 0.16
-set tmargin screen 0.93
-set lmargin screen left
-set rmargin screen middle
+# Panels as wide as the lines that they show are long.
+eval margins(0.105, 0.445, 0.16, 0.93)
 set ylabel p.'/'.p_star
 set xlabel '{/:Italic x}/'.lambda
 set xrange [0:0.5]
@@ -41,8 +34,7 @@ plot @pressures
 
 unset label
 unset ylabel
-set lmargin screen middle + gap
-set rmargin screen right
+eval margins(0.495, 0.98, 0.16, 0.93)
 set xrange [0:0.5*sqrt(2)]
 set xlabel 'distance along the diagonal /'.lambda
 set format y ''

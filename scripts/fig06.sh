@@ -21,10 +21,7 @@ do for [i = 0:loads - 1] {
 
 load 'scripts/unit_cell.gp'
 set cbrange [0:1]
-set lmargin screen 0.17
-set rmargin screen 0.93
-set bmargin screen 0.13
-set tmargin screen 0.89
+eval margins(0.17, 0.93, 0.13, 0.89)
 set key at graph 0.5, 1.01 center bottom samplen 3 font ',12.5'
 
 # A load is named where its curve crosses the line from the crest in the middle to the trough on its right

@@ -89,4 +89,8 @@ load = p_bar.'/'.p_star
 lambda = '{/:Italic λ}'
 Delta = '{/:Italic Δ}'
 
+# To be chosen by `eval`: the left, right, lower and upper edge of a panel, as parts of the picture.
+margins(left, right, bottom, top) = sprintf('set lmargin at screen %.9g; set rmargin at screen %.9g; ' \
+   .'set bmargin at screen %.9g; set tmargin at screen %.9g', left, right, bottom, top)
+
 table(case, kind) = 'outputs/'.case.'/'.case.'.'.kind.'.dat'

@@ -12,10 +12,7 @@ set border 3 lw 0.7
 set tics out nomirror
 
 # Above left: stiffness and resistance.
-set lmargin at screen 0.095
-set rmargin at screen 0.43
-set bmargin at screen 0.605
-set tmargin at screen 0.945
+eval margins(0.095, 0.43, 0.605, 0.945)
 set border 11
 set xlabel load offset 0, 0.3
 set xrange [0:1]
@@ -39,8 +36,7 @@ unset y2label
 set border 3
 
 # Above right: loops.
-set lmargin at screen 0.645
-set rmargin at screen 0.965
+eval margins(0.645, 0.965, 0.605, 0.945)
 set title 'loops of tangential load' offset 0, -0.5
 set xlabel 'displacement [nm]' offset 0, 0.3
 set ylabel '{/:Italic Q} / ({/:Italic f p̄})' offset 0.8, 0
@@ -61,10 +57,7 @@ plot for [i = 1:3] loops index i - 1 using (1e6*column('displacement')):(column(
 unset label
 
 # Below left: where the contact sticks and slips under the middle load.
-set lmargin at screen 0.095
-set rmargin at screen 0.36
-set bmargin at screen 0.1
-set tmargin at screen 0.44
+eval margins(0.095, 0.36, 0.1, 0.44)
 set border 15
 set size ratio -1
 set xrange [0:1]
@@ -84,8 +77,7 @@ plot for [k = 0:1] for [l = 0:1] table('slip_loop', 'slip_map') index 1 \
 # Below right: adhesion.
 set size noratio
 set border 3
-set lmargin at screen 0.48
-set rmargin at screen 0.965
+eval margins(0.48, 0.965, 0.1, 0.44)
 set xlabel load offset 0, 0.3
 set ylabel '{/:Italic A} / {/:Italic A}_0' offset -0.2, 0
 set xrange [-0.1:0.3]

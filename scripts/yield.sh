@@ -46,11 +46,8 @@ set border 15 lw 0.7
 set tics out nomirror
 set xrange [-0.5:0.5]
 set yrange [0.5:0]
-set bmargin at screen 0.74
-set tmargin at screen 0.935
 do for [i = 1:words(loads)] {
-   set lmargin at screen 0.1 + 0.2*(i - 1)
-   set rmargin at screen 0.1 + 0.2*(i - 1) + 0.182
+   eval margins(0.2*i - 0.1, 0.2*i + 0.082, 0.74, 0.935)
    set xtics ('−0.4' -0.4, '0' 0, '0.4' 0.4)
    set xlabel '{/:Italic x}/'.lambda offset 0, 0.3
    set title load.' = '.word(loads, i) offset 0, -0.3 font ',12'
@@ -106,12 +103,9 @@ set xrange [0:1]
 set xtics 0.2 format '%.1f'
 set mxtics 2
 set xlabel load
-set bmargin at screen 0.145
-set tmargin at screen 0.555
 do for [i = 1:2] {
    lateral = word('constrained hydrostatic', i)
-   set lmargin at screen 0.1 + 0.475*(i - 1)
-   set rmargin at screen 0.1 + 0.475*(i - 1) + 0.4
+   eval margins(0.475*i - 0.375, 0.475*i + 0.025, 0.145, 0.555)
    most = i == 1 ? 2.0 : 1.0
    set yrange [0:most]
    set ytics most/4 format '%g'

@@ -217,17 +217,12 @@ class Consumers(unittest.TestCase):
 
     def test_programs_of_the_page(self):
         page = (self.options.sources / "src" / "library" / "README.md").read_text()
-        blocks = [(language, block) for language in ("fortran", "c", "python")
+        blocks = [(language, block) for language in ("fortran", "c")
                   for block in (part.split("```")[0] for part in page.split(f"```{language}\n")[1:])]
-        self.assertEqual(["fortran", "fortran", "c", "python"], [language for language, _ in blocks])
+        self.assertEqual(["fortran", "fortran", "c"], [language for language, _ in blocks])
         found = []
         for number, (language, block) in enumerate(blocks):
             source = self.folder / f"page{number}"
-            if language == "python":
-                if not self.is_sanitized:
-                    source.write_text(block)
-                    found.append(run(sys.executable, source, self.library))
-                continue
             suffix, compiler, text = {
                 "fortran": (".f90", self.options.fortran, f"program page\n{block}end program page\n"),
                 "c": (".c", self.options.c,
