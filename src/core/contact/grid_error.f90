@@ -39,12 +39,14 @@ contains
       real(dp) :: errors(3)
 
       real(dp) :: displacement   ! 2 l P/E* of (C17a) [Delta]
+      real(dp) :: ridges(2)      ! parts of a wave on a step (C15c), 0 unless ridges are parallel
 
       errors = max(history%errors(), unresolved_errors(surface, edge, bend))
       if (surface%has_free_edges) then
          errors = max(errors, least_of_area*errors(2)/max(history%values(2), tiny(1.0_dp))*history%values)
       else
-         if (surface%dimension == 1) errors(1) = max(errors(1), change_safety*lone_approach(edge))
+         ridges = surface%waves_on_step(edge%slab%points)
+         if (any(ridges > 0.0_dp)) errors(1) = max(errors(1), change_safety*lone_approach(edge, ridges))
          displacement = 0.0_dp
          if (.not. (surface%is_height_map() .or. surface%kernel%has_layer())) then
             ! Only the saddles of even waves lie alike in all grids.

@@ -299,7 +299,8 @@ contains
                                       answer%value(area_at_hardness) - area])
          answer%error(contact_area) = max(answer%error(contact_area), change_safety*shown(1))
          answer%error(mean_gap) = max(answer%error(mean_gap), change_safety*shown(3)*(1 - answer%value(contact_area)))
-         shown(3) = answer%value(area_at_hardness)/deepest*max(shown(3), lone_approach(capped))
+         shown(3) = max(shown(3), lone_approach(capped, surface%waves_on_step(capped%slab%points)))
+         shown(3) = answer%value(area_at_hardness)/deepest*shown(3)
          capped_errors(:2) = max(capped_errors(:2), change_safety*shown([3, 2]))
       end if
       answer%error(area_at_hardness) = capped_errors(2)

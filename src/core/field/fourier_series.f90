@@ -30,12 +30,15 @@ module wavycon_fourier_series
       procedure :: multiply
       procedure :: set_mean
       procedure :: add_wave
-      procedure :: parallel_wave
+      procedure :: parallel_slopes
       procedure :: at
       procedure :: on_line
       procedure :: evaluate_on_grid
       procedure :: gather
    end type fourier_series
+
+   !> The largest slope along the crests, over that across them (root mean squares), for which crests count as parallel.
+   real(dp), parameter :: slope_along = 0.02_dp
 
 contains
 
@@ -131,27 +134,32 @@ contains
       end if
    end subroutine add_wave
 
-   !> The wave numbers along X and Y of one of the waves if all of them have parallel crests, otherwise 0.
-   pure function parallel_wave(self) result(wave)
-      class(fourier_series), intent(in) :: self   !! not distributed, of mean 0
-      integer :: wave(2)
+   !> The sizes of the slopes along X and Y, sums over the waves of k^2 |W_kl|^2 and l^2 |W_kl|^2 to the power 1/2, if the
+   !> crests of all waves are parallel, or nearly: (C15d) of src/core/contact/README.md. Otherwise 0.
+   function parallel_slopes(self, length) result(slopes)
+      class(fourier_series), intent(in) :: self
+      real(dp), intent(in) :: length(2)   !! sides of the cell along x and y, > 0
+      real(dp) :: slopes(2)
 
-      complex(dp) :: waves(0:self%last(1))
+      real(dp) :: moments(3), powers(self%first():self%last(1)), sums(3, self%first():self%last(1))
+      complex(dp) :: waves(self%first():self%last(1))
       integer :: k, l
 
-      wave = 0
+      sums = 0.0_dp
       do l = -self%last(2), self%last(2)
          waves = self%row(l, self%last(1))
-         do k = 0, self%last(1)
-            if (.not. abs(waves(k)) > 0.0_dp) cycle
-            if (k*wave(2) /= l*wave(1)) then
-               wave = 0
-               return
-            end if
-            wave = [k, l]
+         powers = waves%re**2 + waves%im**2
+         if (self%first() == 0) powers(0) = 2*powers(0)   ! two halves of one wave
+         do k = self%first(), self%last(1)
+            sums(:, k) = sums(:, k) + powers(k)*real([k, l, k], dp)*[k, l, l]
          end do
       end do
-   end function parallel_wave
+      moments = self%rows%column_totals(sums)
+      slopes = sqrt(moments(:2))
+      ! For parallel crests the third moment is the root of the product of the other two.
+      moments = moments/[length**2, product(length)]
+      if (product(moments(:2)) - moments(3)**2 > (slope_along*sum(moments(:2)))**2) slopes = 0.0_dp
+   end function parallel_slopes
 
    !> exp(i angle).
    elemental complex(dp) function turn(angle)

@@ -199,7 +199,7 @@ contains
       real(dp) :: stiffness   ! E*/(2 l') of (C15c)
       integer :: i, j
 
-      stiffness = norm2(ridges*edge%stiffness)/maxval(ridges)
+      stiffness = stiffness_across(edge, ridges)
       allocate (sums(1, edge%slab%columns()), source=0.0_dp)
       do j = 1, edge%slab%columns()
          values = edge%beside(edge%slab%first - 1 + j, maxloc(ridges, 1))
@@ -222,32 +222,50 @@ contains
       missed = sum(edge%slab%column_totals(sums))
    end function lone_points
 
-   !> The error of the approach from contacts of one or two points in 1-D, (C15b), in the unit of the gap.
-   pure real(dp) function lone_approach(edge) result(error)
-      type(grid_edge), intent(in) :: edge   !! of a grid in 1-D
+   !> E*/(2 l') of (C15c), in the unit of pressure over gap.
+   pure real(dp) function stiffness_across(edge, ridges) result(stiffness)
+      type(grid_edge), intent(in) :: edge
+      real(dp), intent(in) :: ridges(2)   !! `waves_on_step` of the surface, not both 0
+
+      stiffness = norm2(ridges*edge%stiffness)/maxval(ridges)
+   end function stiffness_across
+
+   !> The error of the approach from contacts of one or two points on parallel ridges, (C15b), in the unit of the gap,
+   !> on the lines of the grid that run most nearly across them.
+   real(dp) function lone_approach(edge, ridges) result(error)
+      type(grid_edge), intent(in) :: edge   !! if the grid is distributed, after `fetch_neighbours`
+      real(dp), intent(in) :: ridges(2)     !! `waves_on_step` of the surface, not both 0
 
       !> Constants of (C15b) for one point and for two.
       real(dp), parameter :: beside(2) = [1.0492_dp, 0.7759_dp], of_load(2) = [0.5288_dp, -0.2953_dp], tilt = 0.2513_dp
-      real(dp) :: bend, load, middle, square, field(-1:edge%slab%points(1) + 2)
-      integer :: i, n, spots
+      real(dp), allocatable :: sums(:, :)   ! errors and contacts, half of each from either edge of a contact
+      real(dp) :: bend, field(-1:2), load, middle, square, totals(2)
+      real(dp) :: stiffness   ! E*/(2 l') of (C15c)
+      integer :: i, inwards(2), j, k, n, side
 
-      field(0:size(field) - 3) = edge%column(1)
-      field([-1, size(field) - 2]) = [edge%value_at(-1, 1), edge%value_at(edge%slab%points(1) + 2, 1)]
-      error = 0.0_dp
-      spots = 0
-      ! On a quarter of the cell a contact may begin at the image 0 of the first point.
-      do i = merge(0, 1, edge%even), edge%slab%points(1)
-         if (field(i) <= 0.0_dp .or. field(i - 1) > 0.0_dp) cycle
-         spots = spots + 1
-         n = merge(2, 1, field(i + 1) > 0.0_dp)
-         if (field(i + n) > 0.0_dp) cycle
-         load = sum(field(i:i + n - 1))/edge%stiffness(1)
-         bend = (beside(n)*load - field(i - 1) - field(i + n))/n
-         middle = (field(i + n) - field(i - 1) + tilt*(field(i + n - 1) - field(i))/edge%stiffness(1))/((n + 1)*bend)
-         square = 2/pi*load/bend
-         error = error + 0.5_dp*bend*abs(0.25_dp*(n - 1) + middle**2 + square*(of_load(n) + 0.5_dp*log(square)))
+      stiffness = stiffness_across(edge, ridges)
+      allocate (sums(2, edge%slab%columns()), source=0.0_dp)
+      do j = 1, edge%slab%columns()
+         do i = 1, edge%slab%points(1)
+            if (edge%pressure_or_gap(i, j) <= 0.0_dp) cycle
+            do side = -1, 1, 2
+               inwards = side*cshift([1, 0], maxloc(ridges, 1) - 1)
+               field = [(edge%value_at(i + k*inwards(1), edge%slab%first - 1 + j + k*inwards(2)), k=-1, 2)]
+               if (field(-1) > 0.0_dp) cycle
+               sums(2, j) = sums(2, j) + 0.5_dp
+               n = merge(2, 1, field(1) > 0.0_dp)
+               if (field(n) > 0.0_dp) cycle
+               load = sum(field(0:n - 1))/stiffness
+               bend = (beside(n)*load - field(-1) - field(n))/n
+               middle = (field(n) - field(-1) + tilt*(field(n - 1) - field(0))/stiffness)/((n + 1)*bend)
+               square = 2/pi*load/bend
+               sums(1, j) = sums(1, j) + 0.25_dp*bend*abs(0.25_dp*(n - 1) + middle**2 &
+                                                          + square*(of_load(n) + 0.5_dp*log(square)))
+            end do
+         end do
       end do
-      error = error/max(spots, 1)
+      totals = edge%slab%column_totals(sums)
+      error = totals(1)/max(totals(2), 0.5_dp)
    end function lone_approach
 
    !> What edges show at which the pressure falls from the hardness to zero within a step, in 1-D: what (C11) misses of

@@ -266,7 +266,9 @@ contains
       stiffness = edge%stiffness(1)
       if (abs(edge%stiffness(2) - stiffness) > epsilon(stiffness)*stiffness) then
          ! The steps along phi and theta differ. Take E*/(2 l) of the step l along the normal of the edge. The direction
-         ! of the normal follows from the differences of the values along and across the line of the grid.
+         ! of the normal follows from the differences of the values along and across the line of the grid. Their gaps
+         ! are weighted by the mean of both steps, so that exchanged directions have the same area.
+         stiffness = sqrt(product(edge%stiffness))
          associate (inner => point%inner, outer => point%outer)
             across = abs([outer(2) - inner(2), outer(1) - inner(1)])
             slope(1) = 4*(height(inner) - height(outer))
@@ -286,7 +288,7 @@ contains
          integer, intent(in) :: node(2)   !! (k, l)
 
          height = edge%value_at(node(1), node(2))
-         if (height <= 0.0_dp) height = height*weight*edge%stiffness(1)
+         if (height <= 0.0_dp) height = height*weight*stiffness
       end function height
 
    end function balance

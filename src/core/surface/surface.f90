@@ -43,6 +43,9 @@ module wavycon_surface
       real(dp) :: full_contact_peak = 1.0_dp    !! largest p - pbar in full contact [p*]; the least is -1
       !> The largest sum of the two principal curvatures over 4 pi^2 Delta [1/length^2]; of a map at its points.
       real(dp) :: crest_curvature = 0.0_dp
+      !> Parallel ridges: sizes of the slopes of the shape along X and Y, `parallel_slopes` of its series; 0 if crests of
+      !> waves are not nearly parallel, and with free edges.
+      real(dp) :: ridges(2) = 0.0_dp
       real(dp) :: hardness = huge(1.0_dp)       !! H, upper bound of the pressure [p*]; huge if the bodies stay elastic
    contains
       procedure :: maps_in_cell
@@ -114,16 +117,15 @@ contains
       has_hardness = self%hardness < huge(self%hardness)
    end function has_hardness
 
-   !> How much of one of its waves a step of a grid has along x and along y, if all waves have parallel crests: (C15c)
-   !> of src/core/contact/README.md. 0 for other surfaces and for maps; 1 and 0 for profiles: only the ratio is used.
+   !> How much a step of a grid along x and along y has of the waves of parallel ridges: (C15c) of
+   !> src/core/contact/README.md. 0 for other surfaces; 1 and 0 for profiles: only the ratio is used.
    pure function waves_on_step(self, points) result(waves)
       class(surface_type), intent(in) :: self
       integer, intent(in) :: points(2)   !! points of the grid
       real(dp) :: waves(2)
 
-      waves = [2 - self%dimension, 0]
-      if (self%dimension == 2 .and. .not. self%is_height_map()) &
-         waves = abs(self%shape%parallel_wave())/real(points, dp)
+      waves = [1, 0]
+      if (self%dimension == 2) waves = self%ridges/points
    end function waves_on_step
 
    !> p* [pressure], the mean pressure that just closes the gap everywhere: pi E* Delta/lambda for the 1-D wave, eq.

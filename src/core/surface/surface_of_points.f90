@@ -83,6 +83,7 @@ contains
       if (surface%has_free_edges) then
          call set_units_without_closure(surface)
       else
+         surface%ridges = surface%shape%parallel_slopes(surface%length)
          call set_closure(surface)
       end if
    end function surface_of_points

@@ -103,6 +103,7 @@ contains
       if (surface%amplitude <= 0.0_dp) return
       call divide_series(surface%shape, surface%amplitude)
       call find_peak(weighted(surface%shape, surface%length), surface%crest_curvature, unused)
+      surface%ridges = surface%shape%parallel_slopes(length)
       call set_closure(surface)
    end function surface_of_series
 
