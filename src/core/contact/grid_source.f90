@@ -122,9 +122,7 @@ contains
       ! differ if that point is in contact and the first one is not.
       if (surface%dimension == 1 .and. self%edge%in_contact(0, 1) .and. .not. self%edge%in_contact(1, 1)) &
          loads = cshift(loads, 1)
-      do i = 1, size(curves)
-         curves(i)%load = loads(curves(i)%spot)
-      end do
+      curves%load = loads(curves%spot)
    end subroutine contact_contours
 
    !> The stresses below the Fourier series that interpolates the pressures at the points. Their error estimate has two

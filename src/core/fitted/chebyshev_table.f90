@@ -173,9 +173,7 @@ contains
 
       integer :: i, k
 
-      do i = 1, n
-         matrix(:, i) = [(merge(1, 2, k == 0)*cos(pi*k*(i - 0.5_dp)/n)/n, k=0, n - 1)]
-      end do
+      matrix = reshape([((merge(1, 2, k == 0)*cos(pi*k*(i - 0.5_dp)/n)/n, k=0, n - 1), i=1, n)], [n, n])
    end function coefficients
 
    !> The values of Chebyshev's polynomials T_0 to T_(n-1).

@@ -347,11 +347,8 @@ contains
       points = most_edge_points
       if (ratio < 1.0_dp) points = min(ceiling(log(epsilon(ratio))/log(max(ratio, tiny(ratio)))), most_edge_points)
       points = max(points, least_edge_points)
-      perimeter = 0.0_dp
-      do i = 1, points
-         perimeter = perimeter + abs(self%tangent(exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(self%fold*points), dp))))
-      end do
-      perimeter = perimeter*2*pi/points
+      perimeter = sum([(abs(self%tangent(exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(self%fold*points), dp)))), i=1, points)]) &
+         *2*pi/points
    end function perimeter
 
 end module wavycon_shape_map

@@ -76,9 +76,7 @@ contains
       type(crest_type) :: crests(size(places, 2))
 
       call find_crests(edge, places, number, possible)
-      do i = 1, number
-         crests(i) = crest_at(edge, places(:, i))
-      end do
+      crests(:number) = [(crest_at(edge, places(:, i)), i=1, number)]
       call find_full_pressures(edge, surface, crests(:number), full)
       peak = 0.0_dp
       bend = unknown
