@@ -34,10 +34,7 @@ module wavycon_ball_source
       type(hertz_ball) :: contact
       real(dp) :: accuracy = 0.0_dp     !! of unequal radii: accuracy of the grids for the stresses, as in grid_options
    contains
-      procedure :: fields
-      procedure :: contact_contours
-      procedure :: stresses
-      procedure :: derivatives
+      procedure :: fields, contact_contours, stresses, derivatives
    end type ball_source
 
    type, extends(contact_fields) :: ball_fields

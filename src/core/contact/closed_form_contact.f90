@@ -28,9 +28,7 @@ module wavycon_closed_form_contact
    type, extends(contact_solver) :: closed_form_contact
       real(dp) :: accuracy = default_accuracy   !! of the grids for the stresses below a ball of unequal radii
    contains
-      procedure :: start
-      procedure :: solve_partial_contact
-      procedure :: traits
+      procedure :: start, solve_partial_contact, traits
    end type closed_form_contact
 
    type, extends(field_source) :: closed_form_source
@@ -38,10 +36,7 @@ module wavycon_closed_form_contact
       !> adhesion.
       real(dp) :: tension = 0.0_dp
    contains
-      procedure :: fields
-      procedure :: contact_contours
-      procedure :: stresses
-      procedure :: derivatives
+      procedure :: fields, contact_contours, stresses, derivatives
    end type closed_form_source
 
    type, extends(contact_fields) :: closed_form_fields

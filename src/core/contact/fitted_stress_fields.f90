@@ -15,8 +15,7 @@ module wavycon_fitted_stress_fields
       type(fitted_frame) :: frame            !! frame of the surface
       type(fitted_answer_stress) :: fitted   !! stresses in the axes and units of the lattice, already started
    contains
-      procedure :: at
-      procedure :: start_points
+      procedure :: at, start_points
    end type fitted_stress_fields
 
 contains

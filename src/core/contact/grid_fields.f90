@@ -24,10 +24,7 @@ module wavycon_grid_fields
       !> interpolation allocates it.
       real(dp), allocatable :: psi(:, :)
    contains
-      procedure :: at
-      procedure :: on_grid
-      procedure :: at_own_column
-      procedure :: at_points
+      procedure :: at, on_grid, at_own_column, at_points
    end type grid_fields
 
    !> Positions are rounded. One whose distance from a point of the grid is below this, in steps, is taken as that

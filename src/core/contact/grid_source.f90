@@ -34,12 +34,7 @@ module wavycon_grid_source
       real(dp) :: residual_indentation = 0.0_dp   !! mean overlap where p = H [Delta] (C22)
       type(change_history) :: history         !! main values on the last three grids
    contains
-      procedure :: take_edge
-      procedure :: fields
-      procedure :: contact_contours
-      procedure :: stresses
-      procedure :: derivatives
-      procedure :: collect
+      procedure :: take_edge, fields, contact_contours, stresses, derivatives, collect
       procedure :: pack => pack_source
       procedure :: unpack => unpack_source
    end type grid_source

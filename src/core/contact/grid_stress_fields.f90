@@ -17,8 +17,7 @@ module wavycon_grid_stress_fields
       type(grid_fields) :: fields     !! pressures between the points of the grid
       logical :: repeats = .true.     !! whether the cell is repeated: not with free edges
    contains
-      procedure :: on_line
-      procedure :: on_plane
+      procedure :: on_line, on_plane
       procedure, private :: add_ringing
    end type grid_stress_fields
 

@@ -36,32 +36,15 @@ module wavycon_grid_slab
       integer :: width = 0              !! number of columns of each rank but the last ones
       integer :: first = 1, last = 0    !! first and last own column; last = first - 1 if there is none
    contains
-      procedure :: start
-      procedure :: divide
-      procedure :: columns
-      procedure :: strips
-      procedure :: has_memory
-      procedure :: blocks
-      procedure :: coarser
-      procedure :: column_totals
-      procedure :: strip_totals
-      procedure :: total
-      procedure :: total_count
-      procedure :: largest
-      procedure :: sum_of
-      procedure :: extremes
-      procedure :: find_largest
-      procedure :: first_point
+      procedure :: start, divide, columns, strips, has_memory, blocks, coarser, column_totals
+      procedure :: strip_totals, total, total_count, largest, sum_of, extremes, find_largest, first_point
       !> Whether a condition is true on any rank at work, also if each rank has the whole grid.
       procedure, nopass :: any => any_rank
       !> Reports an error of any rank at work to all ranks, also if each rank has the whole grid.
       procedure, nopass :: share_error
       !> Gets the columns before and after the own ones.
       generic :: halo => halo_dp, halo_sp
-      procedure :: fetch
-      procedure :: gather
-      procedure :: gather_whole
-      procedure :: exchange_rows
+      procedure :: fetch, gather, gather_whole, exchange_rows
       procedure, private :: halo_dp, halo_sp
    end type grid_slab
 

@@ -19,10 +19,7 @@ module wavycon_chebyshev_table
       real(dp), allocatable, private :: power(:, :)
       integer, allocatable, private :: degree(:)           !! for each power of v the degree of its polynomial in u
    contains
-      procedure :: set
-      procedure :: at
-      procedure :: set_powers
-      procedure :: evaluate_even
+      procedure :: set, at, set_powers, evaluate_even
    end type chebyshev_table
 
 contains

@@ -52,8 +52,7 @@ module wavycon_contact_equations
       !> The kernel of the images, with or without a series: see `prepare` there. start_equations keeps this component.
       type(lattice_images) :: images
    contains
-      procedure :: linearise
-      procedure :: integral
+      procedure :: linearise, integral
    end type contact_equations
 
 contains

@@ -37,9 +37,7 @@ module wavycon_fitted_solver
       real(dp) :: changes(2) = 0.0_dp                        !! last step's change of the shape, the newest first
       real(dp) :: decay(2) = 1.0_dp                          !! decay of the slopes' errors, the newest first
    contains
-      procedure :: shift
-      procedure :: find_newest
-      procedure :: set_slopes
+      procedure :: shift, find_newest, set_slopes
    end type area_slopes
 
 contains

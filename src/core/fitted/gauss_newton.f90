@@ -24,8 +24,7 @@ module wavycon_gauss_newton
       integer :: iterations = 0           !! number of steps at all degrees
       logical :: valid = .false.          !! whether the step is finite and the new shape is not about to fold
    contains
-      procedure :: solve
-      procedure :: step
+      procedure :: solve, step
    end type newton_steps
 
    !> Largest ratio of a step's change to the square of the last change while convergence is quadratic.

@@ -23,9 +23,7 @@ module wavycon_isobar_grid
       !> (0:n, 0:N, 2). The last index is 1 for the lines theta = theta_l and 2 for the lines phi = phi_k.
       real(dp), allocatable :: along(:, :, :), across(:, :, :)
    contains
-      procedure :: in_contact
-      procedure :: set_edge_point
-      procedure :: area_fraction
+      procedure :: in_contact, set_edge_point, area_fraction
       procedure, private :: node
    end type isobar_grid
 

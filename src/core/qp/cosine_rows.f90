@@ -21,8 +21,7 @@ module wavycon_cosine_rows
       integer :: points_per_side = 0          !! N
       integer, allocatable :: k(:), l(:)      !! the points as chosen by `choose_points`, shape (m)
    contains
-      procedure :: of
-      procedure :: squares
+      procedure :: of, squares
    end type cosine_rows
 
 contains

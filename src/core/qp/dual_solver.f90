@@ -39,8 +39,7 @@ module wavycon_dual_solver
       type(qp_problem) :: problem
       type(working_set) :: set
    contains
-      procedure :: solve
-      procedure :: pass_to
+      procedure :: solve, pass_to
    end type dual_solver
 
 contains

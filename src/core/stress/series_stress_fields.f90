@@ -48,13 +48,7 @@ module wavycon_series_stress_fields
       !> With free edges only: the waves of the whole pressure, with its mean.
       type(pressure_wave_sums), allocatable :: whole
    contains
-      procedure :: remove_images
-      procedure :: at
-      procedure :: expand
-      procedure :: near
-      procedure :: on_line
-      procedure :: on_plane
-      procedure :: start_points
+      procedure :: remove_images, at, expand, near, on_line, on_plane, start_points
    end type series_stress_fields
 
 contains

@@ -19,12 +19,8 @@ module wavycon_mpi_ranks
    !> The communicator of all processes that mpirun has started.
    type, extends(communicator) :: mpi_communicator
    contains
-      procedure, nopass :: add_reals
-      procedure, nopass :: add_integers
-      procedure, nopass :: largest
-      procedure :: move
-      procedure :: exchange_rows
-      procedure :: finish
+      procedure, nopass :: add_reals, add_integers, largest
+      procedure :: move, exchange_rows, finish
    end type mpi_communicator
 
 contains
