@@ -25,8 +25,7 @@ contains
       integer, intent(in) :: n                 !! number of terms, >= 0
       real(dp) :: a(n)                         !! [p*]
 
-      real(dp) :: c
-      real(dp) :: legendre(0:n + 1)
+      real(dp) :: c, legendre(0:n + 1)
       real(dp) :: integral(0:n)  !! of P_l from c to 1
       integer(c_int) :: ignored
       integer :: l

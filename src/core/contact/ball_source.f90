@@ -235,8 +235,7 @@ contains
    !> The stresses at a point, from those at the corresponding point below the smaller rectangle.
    subroutine stress_at(self, x, y, depth, nu_terms, error)
       class(ball_stress_fields), intent(inout) :: self
-      real(dp), intent(in) :: x, y
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: x, y, depth
       real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 
@@ -269,8 +268,7 @@ contains
    !> The stresses at a point below a round ball.
    subroutine stress_of_round_ball(self, x, y, depth, nu_terms, error)
       class(round_ball_stress_fields), intent(inout) :: self
-      real(dp), intent(in) :: x, y
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: x, y, depth
       real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 

@@ -170,8 +170,7 @@ contains
    !> The stresses below Westergaard's pressure, with adhesion less those of flat punches: (I24) of src/beyond.
    subroutine stress_at(self, x, y, depth, nu_terms, error)
       class(closed_form_stress_fields), intent(inout) :: self
-      real(dp), intent(in) :: x, y
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: x, y, depth
       real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 

@@ -23,8 +23,7 @@ contains
    !> The stresses at a point, converted from the axes and units of the lattice.
    subroutine at(self, x, y, depth, nu_terms, error)
       class(fitted_stress_fields), intent(inout) :: self
-      real(dp), intent(in) :: x, y
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: x, y, depth
       real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 

@@ -84,8 +84,7 @@ contains
    !> The fields at many points, interpolated by (C20), with the surface's shape that the caller knows.
    subroutine at_points(self, angle, shape_values, pressure, displacement, gap)
       class(grid_fields), intent(inout) :: self
-      real(dp), intent(in) :: angle(:, :)
-      real(dp), intent(in) :: shape_values(:)
+      real(dp), intent(in) :: angle(:, :), shape_values(:)
       real(dp), intent(out) :: pressure(:), displacement(:), gap(:)
 
       integer :: k

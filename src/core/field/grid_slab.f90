@@ -227,8 +227,7 @@ contains
       class(grid_slab), intent(in) :: self
       real(dp), intent(in), contiguous :: field(:, :)   !! shape (M, columns())
 
-      real(dp) :: column_sums(1, size(field, 2))
-      real(dp) :: column
+      real(dp) :: column_sums(1, size(field, 2)), column
       integer :: i, j
 
       do j = 1, size(field, 2)

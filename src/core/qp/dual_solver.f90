@@ -107,8 +107,7 @@ contains
       real(dp) :: x(size(problem%linear)), multipliers(size(problem%linear)), slacks(size(problem%bounds))
       real(dp) :: slack, slack_terms, kept_slack
       real(dp), allocatable :: normals(:, :)       ! those of the candidates
-      integer :: candidates(size(problem%bounds))
-      integer :: listed, i, n, place, violated, small_steps
+      integer :: candidates(size(problem%bounds)), listed, i, n, place, violated, small_steps
       logical :: is_active
 
       n = size(x)
