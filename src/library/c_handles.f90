@@ -63,9 +63,7 @@ module wavycon_c_handles
       type(error_type), allocatable :: trouble           !! the error of the call; not allocated: success
       type(c_ptr), private :: error = c_null_ptr         !! handle of the caller's error object
    contains
-      procedure :: begins
-      procedure :: code
-      procedure :: new_object
+      procedure :: begins, code, new_object
    end type c_call
 
    !> The object for a handle that is null or not one of this library: its kind is empty.

@@ -78,12 +78,7 @@ module wavycon_deck_session
       logical, private :: is_for_table = .false.
    contains
       procedure :: open => open_session
-      procedure :: open_file
-      procedure :: solve
-      procedure :: solve_load
-      procedure :: make_table
-      procedure :: number
-      procedure :: text
+      procedure :: open_file, solve, solve_load, make_table, number, text
       procedure, private :: solve_one
    end type deck_session
 

@@ -271,16 +271,13 @@ contains
       type(elastic_body) :: body
       real(dp) :: first(2)
       real(dp), allocatable :: errors(:, :), over_p_star(:, :, :)
-      integer :: i
 
       call prepare_stresses(session, solved, nu, lateral, body, error)
       if (.not. allocated(error)) call check_points(session, points, offset, depth, numbers_of_stresses, first, error)
       if (allocated(error)) return
       if (allocated(solved%stresses)) then
          call solved%stresses%on_plane(points, first, session%scale%depth_angle(depth), body, over_p_star, errors)
-         do i = 1, 6
-            stress(i, :, :) = session%scale%p_star*over_p_star(:, :, i)
-         end do
+         stress = session%scale%p_star*reshape(over_p_star, shape(stress), order=[2, 3, 1])
          if (present(stress_error)) stress_error = session%scale%p_star*errors
       else
          stress = spread(spread(body%stress(no_waves, solved%mean_pressure), 2, points(1)), 3, points(2))

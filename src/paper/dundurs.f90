@@ -25,8 +25,7 @@ contains
       integer, intent(in) :: n                 !! number of terms, >= 0
       real(dp) :: a(n)                         !! [p*]
 
-      real(dp) :: c
-      real(dp) :: legendre(0:n + 1)
+      real(dp) :: c, legendre(0:n + 1)
       real(dp) :: integral(0:n)  !! of P_l from c to 1
       integer(c_int) :: ignored
       integer :: l
@@ -34,10 +33,7 @@ contains
       c = 1 - 2*min(1.0_dp, max(0.0_dp, pbar_over_pstar))
       ! The status can be ignored: it is 0 for all -1 <= c <= 1.
       ignored = gsl_sf_legendre_pl_array(int(n + 1, c_int), c, legendre)
-      integral(0) = 1 - c
-      do l = 1, n
-         integral(l) = (legendre(l - 1) - legendre(l + 1))/(2*l + 1)
-      end do
+      integral = [1 - c, ((legendre(l - 1) - legendre(l + 1))/(2*l + 1), l=1, n)]
       a = (integral(1:n) + integral(0:n - 1))/2
    end function dundurs_coefficients
 

@@ -31,14 +31,7 @@ module wavycon_working_set
       real(dp), allocatable :: triangle(:, :)        !! R in the upper triangle of triangle(:k, :k), shape (n, n)
       real(dp), allocatable :: inverse(:)            !! U^-1, the factor of normals and unknowns, shape (n)
    contains
-      procedure :: start
-      procedure :: assign_active
-      procedure :: split
-      procedure :: add
-      procedure :: remove
-      procedure :: solve
-      procedure :: refresh
-      procedure :: check
+      procedure :: start, assign_active, split, add, remove, solve, refresh, check
    end type working_set
 
 contains

@@ -11,10 +11,7 @@ module stress_random_numbers
    type :: random_stream
       integer(int64), private :: state = 1   !! never 0
    contains
-      procedure :: start
-      procedure :: uniform
-      procedure :: whole
-      procedure :: chance
+      procedure :: start, uniform, whole, chance
    end type random_stream
 
 contains

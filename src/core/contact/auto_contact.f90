@@ -32,11 +32,7 @@ module wavycon_auto_contact
       !> alone.
       class(contact_solver), allocatable, private :: preferred
    contains
-      procedure :: start
-      procedure :: solve_partial_contact
-      procedure :: traits
-      procedure :: forget_last_load
-      procedure :: skip_load
+      procedure :: start, solve_partial_contact, traits, forget_last_load, skip_load
    end type auto_contact
 
 contains

@@ -34,10 +34,7 @@ module wavycon_ball_source
       type(hertz_ball) :: contact
       real(dp) :: accuracy = 0.0_dp     !! of unequal radii: accuracy of the grids for the stresses, as in grid_options
    contains
-      procedure :: fields
-      procedure :: contact_contours
-      procedure :: stresses
-      procedure :: derivatives
+      procedure :: fields, contact_contours, stresses, derivatives
    end type ball_source
 
    type, extends(contact_fields) :: ball_fields
@@ -238,8 +235,7 @@ contains
    !> The stresses at a point, from those at the corresponding point below the smaller rectangle.
    subroutine stress_at(self, x, y, depth, nu_terms, error)
       class(ball_stress_fields), intent(inout) :: self
-      real(dp), intent(in) :: x, y
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: x, y, depth
       real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 
@@ -272,8 +268,7 @@ contains
    !> The stresses at a point below a round ball.
    subroutine stress_of_round_ball(self, x, y, depth, nu_terms, error)
       class(round_ball_stress_fields), intent(inout) :: self
-      real(dp), intent(in) :: x, y
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: x, y, depth
       real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 

@@ -28,9 +28,7 @@ module wavycon_closed_form_contact
    type, extends(contact_solver) :: closed_form_contact
       real(dp) :: accuracy = default_accuracy   !! of the grids for the stresses below a ball of unequal radii
    contains
-      procedure :: start
-      procedure :: solve_partial_contact
-      procedure :: traits
+      procedure :: start, solve_partial_contact, traits
    end type closed_form_contact
 
    type, extends(field_source) :: closed_form_source
@@ -38,10 +36,7 @@ module wavycon_closed_form_contact
       !> adhesion.
       real(dp) :: tension = 0.0_dp
    contains
-      procedure :: fields
-      procedure :: contact_contours
-      procedure :: stresses
-      procedure :: derivatives
+      procedure :: fields, contact_contours, stresses, derivatives
    end type closed_form_source
 
    type, extends(contact_fields) :: closed_form_fields
@@ -175,8 +170,7 @@ contains
    !> The stresses below Westergaard's pressure, with adhesion less those of flat punches: (I24) of src/beyond.
    subroutine stress_at(self, x, y, depth, nu_terms, error)
       class(closed_form_stress_fields), intent(inout) :: self
-      real(dp), intent(in) :: x, y
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: x, y, depth
       real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 

@@ -24,10 +24,7 @@ module wavycon_contact_fields
       integer :: maps_in_cell(2) = 1        !! that of the surface: how often the points of on_grid fit into the cell
    contains
       procedure(fields_at_point), deferred :: at
-      procedure :: on_grid
-      procedure :: prepare_places
-      procedure :: at_own_column
-      procedure :: at_points
+      procedure :: on_grid, prepare_places, at_own_column, at_points
    end type contact_fields
 
    abstract interface

@@ -33,14 +33,7 @@ module wavycon_contact_region
       integer, allocatable, private :: chunk_run(:)      !! first run of each chunk, shape (chunks+1)
       integer, allocatable, private :: strip_chunk(:)    !! first chunk of each strip, shape (strips+1)
    contains
-      procedure :: start
-      procedure :: gather_scaled
-      procedure :: take_chunk
-      procedure :: put_chunk
-      procedure :: convolve_chunk
-      procedure :: strip_places
-      procedure :: strip_sums
-      procedure :: correct
+      procedure :: start, gather_scaled, take_chunk, put_chunk, convolve_chunk, strip_places, strip_sums, correct
    end type contact_region
 
 contains

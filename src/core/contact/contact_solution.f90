@@ -33,19 +33,8 @@ module wavycon_contact_solution
       !> load. The last two need no source.
       class(field_source), allocatable :: source
    contains
-      procedure :: move_to
-      procedure :: is_good
-      procedure :: has_numbers
-      procedure :: fields
-      procedure :: contact_contours
-      procedure :: stresses
-      procedure :: spots
-      procedure :: coefficients
-      procedure :: details
-      procedure :: derivatives
-      procedure :: distributed_points
-      procedure :: collect_fields
-      procedure :: is_kept
+      procedure :: move_to, is_good, has_numbers, fields, contact_contours, stresses, spots
+      procedure :: coefficients, details, derivatives, distributed_points, collect_fields, is_kept
       procedure :: pack => pack_solution
       procedure :: unpack => unpack_solution
    end type contact_solution

@@ -56,11 +56,7 @@ module wavycon_contact_solver
       procedure(solve_load), deferred :: solve_partial_contact
       procedure :: measure_full_contact
       procedure(traits_of_solver), deferred :: traits
-      procedure :: forget_last_load
-      procedure :: begin_search
-      procedure :: next_level
-      procedure :: set_search
-      procedure :: skip_load
+      procedure :: forget_last_load, begin_search, next_level, set_search, skip_load
    end type contact_solver
 
    abstract interface

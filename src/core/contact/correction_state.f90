@@ -42,15 +42,9 @@ module wavycon_correction_state
       real(sp), allocatable :: contact(:)         !! 1 at free points, 0 at those with p = 0 or p = H
       logical :: contact_is_new = .true.          !! whether `contact` changed since the preconditioner last copied it
    contains
-      procedure :: start
-      procedure :: put_residual
-      procedure :: exclude_blocked
-      procedure :: displace
-      procedure :: take_step
+      procedure :: start, put_residual, exclude_blocked, displace, take_step
       procedure, private :: update_contact
-      procedure :: totals
-      procedure :: sum_of
-      procedure :: add_to
+      procedure :: totals, sum_of, add_to
    end type correction_state
 
 contains

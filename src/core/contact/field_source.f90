@@ -26,8 +26,7 @@ module wavycon_field_source
       procedure(fields_of_source), deferred :: fields
       procedure(edge_of_source), deferred :: contact_contours
       procedure(stresses_of_source), deferred :: stresses
-      procedure :: coefficients
-      procedure :: details
+      procedure :: coefficients, details
       procedure(slopes_of_source), deferred :: derivatives
       procedure :: collect
    end type field_source

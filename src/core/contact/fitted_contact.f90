@@ -25,10 +25,7 @@ module wavycon_fitted_contact
       logical, private :: keep_fields = .true.
       type(fitted_answer), private :: last         !! solution of the last load, from which the next one starts
    contains
-      procedure :: start
-      procedure :: solve_partial_contact
-      procedure :: traits
-      procedure :: forget_last_load
+      procedure :: start, solve_partial_contact, traits, forget_last_load
    end type fitted_contact
 
 contains

@@ -22,8 +22,7 @@ module wavycon_fitted_frame
       real(dp) :: pressure_unit = 1.0_dp       !! unit of pressure on the lattice, pi E* Delta/s [p*]
       type(wave_lattice), allocatable :: lattice   !! lattice of the crests; not allocated: 'fitted' cannot solve it
    contains
-      procedure :: lattice_position
-      procedure :: symmetry
+      procedure :: lattice_position, symmetry
    end type fitted_frame
 
    !> The lattices.

@@ -25,11 +25,7 @@ module wavycon_fitted_source
       type(fitted_answer) :: answer     !! the solution in the units of src/core/fitted
       real(dp) :: accuracy = 0.0_dp     !! accuracy of fitted_contact: largest error of gap [Delta] and pressure [p*]
    contains
-      procedure :: fields
-      procedure :: contact_contours
-      procedure :: stresses
-      procedure :: details
-      procedure :: derivatives
+      procedure :: fields, contact_contours, stresses, details, derivatives
    end type fitted_source
 
    type, extends(contact_fields) :: fitted_contact_fields
@@ -37,8 +33,7 @@ module wavycon_fitted_source
       real(dp) :: accuracy = 0.0_dp     !! as in fitted_source
       type(fitted_fields), allocatable :: fitted
    contains
-      procedure :: at
-      procedure :: prepare_places
+      procedure :: at, prepare_places
    end type fitted_contact_fields
 
    !> Number of points on each contour.

@@ -15,8 +15,7 @@ module wavycon_fitted_stress_fields
       type(fitted_frame) :: frame            !! frame of the surface
       type(fitted_answer_stress) :: fitted   !! stresses in the axes and units of the lattice, already started
    contains
-      procedure :: at
-      procedure :: start_points
+      procedure :: at, start_points
    end type fitted_stress_fields
 
 contains
@@ -24,8 +23,7 @@ contains
    !> The stresses at a point, converted from the axes and units of the lattice.
    subroutine at(self, x, y, depth, nu_terms, error)
       class(fitted_stress_fields), intent(inout) :: self
-      real(dp), intent(in) :: x, y
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: x, y, depth
       real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 

@@ -48,11 +48,7 @@ module wavycon_grid_contact
       !> P from which on a map in full contact has no gap between its points; huge before a load of full contact.
       real(dp), private :: closes_at = huge(1.0_dp)
    contains
-      procedure :: start
-      procedure :: solve_partial_contact
-      procedure :: measure_full_contact
-      procedure :: set_search
-      procedure :: traits
+      procedure :: start, solve_partial_contact, measure_full_contact, set_search, traits
    end type grid_contact
 
 contains

@@ -24,10 +24,7 @@ module wavycon_grid_fields
       !> interpolation allocates it.
       real(dp), allocatable :: psi(:, :)
    contains
-      procedure :: at
-      procedure :: on_grid
-      procedure :: at_own_column
-      procedure :: at_points
+      procedure :: at, on_grid, at_own_column, at_points
    end type grid_fields
 
    !> Positions are rounded. One whose distance from a point of the grid is below this, in steps, is taken as that
@@ -87,8 +84,7 @@ contains
    !> The fields at many points, interpolated by (C20), with the surface's shape that the caller knows.
    subroutine at_points(self, angle, shape_values, pressure, displacement, gap)
       class(grid_fields), intent(inout) :: self
-      real(dp), intent(in) :: angle(:, :)
-      real(dp), intent(in) :: shape_values(:)
+      real(dp), intent(in) :: angle(:, :), shape_values(:)
       real(dp), intent(out) :: pressure(:), displacement(:), gap(:)
 
       integer :: k

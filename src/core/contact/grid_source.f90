@@ -34,12 +34,7 @@ module wavycon_grid_source
       real(dp) :: residual_indentation = 0.0_dp   !! mean overlap where p = H [Delta] (C22)
       type(change_history) :: history         !! main values on the last three grids
    contains
-      procedure :: take_edge
-      procedure :: fields
-      procedure :: contact_contours
-      procedure :: stresses
-      procedure :: derivatives
-      procedure :: collect
+      procedure :: take_edge, fields, contact_contours, stresses, derivatives, collect
       procedure :: pack => pack_source
       procedure :: unpack => unpack_source
    end type grid_source
@@ -122,9 +117,7 @@ contains
       ! differ if that point is in contact and the first one is not.
       if (surface%dimension == 1 .and. self%edge%in_contact(0, 1) .and. .not. self%edge%in_contact(1, 1)) &
          loads = cshift(loads, 1)
-      do i = 1, size(curves)
-         curves(i)%load = loads(curves(i)%spot)
-      end do
+      curves%load = loads(curves%spot)
    end subroutine contact_contours
 
    !> The stresses below the Fourier series that interpolates the pressures at the points. Their error estimate has two

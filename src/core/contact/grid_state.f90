@@ -28,8 +28,7 @@ module wavycon_grid_state
       logical :: interrupted = .false.          !! whether `progress` stopped the solver; the gap is then not allocated
       logical :: is_open = .true.               !! whether a point has no pressure; with a hardness only
    contains
-      procedure :: open_gap
-      procedure :: size_of_gaps
+      procedure :: open_gap, size_of_gaps
    end type grid_state
 
 contains

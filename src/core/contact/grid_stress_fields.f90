@@ -17,8 +17,7 @@ module wavycon_grid_stress_fields
       type(grid_fields) :: fields     !! pressures between the points of the grid
       logical :: repeats = .true.     !! whether the cell is repeated: not with free edges
    contains
-      procedure :: on_line
-      procedure :: on_plane
+      procedure :: on_line, on_plane
       procedure, private :: add_ringing
    end type grid_stress_fields
 
@@ -29,8 +28,7 @@ contains
       class(grid_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: start(2)
       integer, intent(in) :: direction(2)
-      real(dp), intent(in) :: t(:)
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: t(:), depth
       real(dp), intent(out) :: nu_terms(:, :, :), error(:)
 
       integer :: i
@@ -46,11 +44,9 @@ contains
    subroutine on_plane(self, points, offset, depth, body, stress, error)
       class(grid_stress_fields), intent(inout) :: self
       integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2)
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: offset(2), depth
       type(elastic_body), intent(in) :: body
-      real(dp), allocatable, intent(out) :: stress(:, :, :)
-      real(dp), allocatable, intent(out) :: error(:, :)
+      real(dp), allocatable, intent(out) :: stress(:, :, :), error(:, :)
 
       integer :: k, l
 

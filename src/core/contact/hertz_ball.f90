@@ -24,8 +24,7 @@ module wavycon_hertz_ball
       !> pressure [pressure length^2].
       real(dp) :: tension = 0.0_dp
    contains
-      procedure :: contact_area
-      procedure :: perimeter
+      procedure :: contact_area, perimeter
    end type hertz_ball
 
 contains

@@ -34,8 +34,7 @@ module wavycon_local_stiffness
       real(sp), private :: weights(-stencil_reach:stencil_reach, -stencil_reach:stencil_reach) = 0.0_sp
       logical :: is_started = .false.
    contains
-      procedure :: start
-      procedure :: apply
+      procedure :: start, apply
    end type local_stiffness
 
 contains

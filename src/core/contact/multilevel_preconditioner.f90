@@ -41,10 +41,7 @@ module wavycon_multilevel_preconditioner
       !> A field on the next grid, in the columns 1 .. coarser%slab%columns(), with one more column on each side.
       real(sp), allocatable, private :: values(:, :)
    contains
-      procedure :: start
-      procedure :: average_contact
-      procedure :: extend
-      procedure :: collect
+      procedure :: start, average_contact, extend, collect
    end type multilevel_preconditioner
 
 contains

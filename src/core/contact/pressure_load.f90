@@ -35,9 +35,7 @@ contains
       largest_change = slab%sum_of(merge(pressure, 0.0_dp, changes))
       if (lack > 0.0_dp) largest_change = slab%sum_of(merge(hardness - pressure, 0.0_dp, changes))
       if (abs(lack) >= largest_change) changes = .true.
-      do s = 1, slab%strips() + 1
-         first(s) = 1 + size(pressure, 1)*min((s - 1)*strip_columns, size(pressure, 2))
-      end do
+      first = 1 + size(pressure, 1)*min([(s*strip_columns, s=0, slab%strips())], size(pressure, 2))
       shift = bounded_shift(slab, first, pack(merge(pressure, 0.0_dp, changes), .true.), &
                             pack(merge(hardness - pressure, 0.0_dp, changes), .true.), lack)
       where (changes) pressure = min(max(pressure + shift, 0.0_dp), hardness)

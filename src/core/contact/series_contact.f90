@@ -62,13 +62,7 @@ module wavycon_series_contact
       logical :: rotated = .false.
       real(dp), allocatable :: x(:)        !! amplitudes of the terms of the series of (p - pbar)/p*
    contains
-      procedure :: pressure
-      procedure :: displacement
-      procedure :: fields
-      procedure :: contact_contours
-      procedure :: stresses
-      procedure :: coefficients
-      procedure :: derivatives
+      procedure :: pressure, displacement, fields, contact_contours, stresses, coefficients, derivatives
    end type series_source
 
    type, extends(contact_solver) :: series_contact
@@ -77,11 +71,7 @@ module wavycon_series_contact
       integer, private :: solver = by_beale             !! by_beale or by_series, for the records of solutions
       type(dual_solver), allocatable, private :: dual   !! state of the dual method; not allocated before the first load
    contains
-      procedure :: start
-      procedure :: solve_partial_contact
-      procedure :: solve_programme
-      procedure :: traits
-      procedure :: forget_last_load
+      procedure :: start, solve_partial_contact, solve_programme, traits, forget_last_load
    end type series_contact
 
 contains

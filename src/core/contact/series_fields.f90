@@ -26,8 +26,7 @@ module wavycon_series_fields
       !> The least pressure [p*]; -huge if adhesion holds the surfaces in full contact below P = 1.
       real(dp), private :: least_pressure = 0.0_dp
    contains
-      procedure :: at
-      procedure :: on_grid
+      procedure :: at, on_grid
    end type series_fields
 
 contains

@@ -9,8 +9,7 @@ module wavycon_solver_progress
 
    type :: solver_progress
    contains
-      procedure :: grid_solved
-      procedure :: shall_stop
+      procedure :: grid_solved, shall_stop
    end type solver_progress
 
 contains

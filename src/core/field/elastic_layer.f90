@@ -18,8 +18,7 @@ module wavycon_elastic_layer
       !> Its part of the compliance of the shortest waves, E*/E1*; the rest is that of the other body, a half-space.
       real(dp) :: share = 1.0_dp
    contains
-      procedure :: factor
-      procedure :: mean_compliance
+      procedure :: factor, mean_compliance
    end type elastic_layer
 
    !> Beyond this 2kh the factor is one to all digits: it differs from one by less than its square times exp(-2kh).

@@ -19,9 +19,7 @@ module wavycon_equivalent_points
       !> translation.
       logical, private :: has_mirrors = .false., has_diagonals = .false., has_second_crest = .false.
    contains
-      procedure :: start
-      procedure :: first_of
-      procedure :: number_of_first
+      procedure :: start, first_of, number_of_first
    end type equivalent_points
 
    !> The first of the points that are equivalent to a point, and the operations that lead to this first point:

@@ -22,19 +22,8 @@ module wavycon_fourier_series
       !> its own ones; here they are columns, k is column k + 1. A series that is not distributed has the default.
       type(grid_slab) :: rows
    contains
-      procedure :: is_even
-      procedure :: first
-      procedure :: last
-      procedure :: row
-      procedure :: frequencies
-      procedure :: multiply
-      procedure :: set_mean
-      procedure :: add_wave
-      procedure :: parallel_slopes
-      procedure :: at
-      procedure :: on_line
-      procedure :: evaluate_on_grid
-      procedure :: gather
+      procedure :: is_even, first, last, row, frequencies, multiply, set_mean
+      procedure :: add_wave, parallel_slopes, at, on_line, evaluate_on_grid, gather
    end type fourier_series
 
    !> The largest slope along the crests, over that across them (root mean squares), for which crests count as parallel.

@@ -36,31 +36,15 @@ module wavycon_grid_slab
       integer :: width = 0              !! number of columns of each rank but the last ones
       integer :: first = 1, last = 0    !! first and last own column; last = first - 1 if there is none
    contains
-      procedure :: start
-      procedure :: divide
-      procedure :: columns
-      procedure :: strips
-      procedure :: has_memory
-      procedure :: blocks
-      procedure :: coarser
-      procedure :: column_totals
-      procedure :: strip_totals
-      procedure :: total
-      procedure :: total_count
-      procedure :: largest
-      procedure :: sum_of
-      procedure :: extremes
-      procedure :: find_largest
+      procedure :: start, divide, columns, strips, has_memory, blocks, coarser, column_totals
+      procedure :: strip_totals, total, total_count, largest, sum_of, extremes, find_largest, first_point
       !> Whether a condition is true on any rank at work, also if each rank has the whole grid.
       procedure, nopass :: any => any_rank
       !> Reports an error of any rank at work to all ranks, also if each rank has the whole grid.
       procedure, nopass :: share_error
       !> Gets the columns before and after the own ones.
       generic :: halo => halo_dp, halo_sp
-      procedure :: fetch
-      procedure :: gather
-      procedure :: gather_whole
-      procedure :: exchange_rows
+      procedure :: fetch, gather, gather_whole, exchange_rows
       procedure, private :: halo_dp, halo_sp
    end type grid_slab
 
@@ -243,8 +227,7 @@ contains
       class(grid_slab), intent(in) :: self
       real(dp), intent(in), contiguous :: field(:, :)   !! shape (M, columns())
 
-      real(dp) :: column_sums(1, size(field, 2))
-      real(dp) :: column
+      real(dp) :: column_sums(1, size(field, 2)), column
       integer :: i, j
 
       do j = 1, size(field, 2)
@@ -287,8 +270,6 @@ contains
       real(dp), intent(out) :: value
       integer, intent(out) :: point(2)        !! row and column, from 1
 
-      !> Minus the number of the point in the order of the grid, from 0: the largest over the ranks is the first point.
-      real(dp) :: minus_number(1)
       real(dp) :: column, columns(size(field, 2))
       integer :: i, j
 
@@ -301,21 +282,29 @@ contains
          columns(j) = column
       end do
       value = maxval(self%largest([maxval(columns)]))
-      ! A real number holds a whole number exactly up to 2^53.
-      minus_number = -huge(minus_number)
-      associate (m => self%points(1))
-         j = findloc(columns >= value, .true., dim=1)
-         if (j > 0) then
-            i = findloc(field(:, j) >= value, .true., dim=1)
-            minus_number = -(i - 1.0_dp + real(m, dp)*(self%first + j - 2))
-         end if
-         minus_number = self%largest(minus_number)
-         point(2) = int(-minus_number(1)/m)
-         point(1) = nint(-minus_number(1) - real(m, dp)*point(2))
-         if (point(1) < 0) point = point + [m, -1]
-      end associate
-      point = point + 1
+      i = 0
+      j = findloc(columns >= value, .true., dim=1)
+      if (j > 0) i = findloc(field(:, j) >= value, .true., dim=1)
+      point = self%first_point(j > 0, [i, self%first - 1 + j])
    end subroutine find_largest
+
+   !> The first point, in the order of the grid, of those that the ranks give.
+   function first_point(self, gives, point) result(first)
+      class(grid_slab), intent(in) :: self
+      logical, intent(in) :: gives      !! whether this rank gives a point; at least one rank must
+      integer, intent(in) :: point(2)   !! its row and column, from 1
+      integer :: first(2)
+
+      !> Minus the number of the point, from 0. A real number holds a whole number exactly up to 2^53.
+      real(dp) :: minus_number(1)
+
+      minus_number = -huge(minus_number)
+      if (gives) minus_number = -(point(1) - 1 + real(self%points(1), dp)*(point(2) - 1))
+      minus_number = self%largest(minus_number)
+      associate (number => int(-minus_number(1), int64), m => self%points(1))
+         first = 1 + int([modulo(number, int(m, int64)), number/m])
+      end associate
+   end function first_point
 
    !> Gets the columns before and after the own ones. These are columns of other ranks, or at the border of the grid the
    !> images that continue the grid. A rank without columns gets none.

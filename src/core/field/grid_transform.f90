@@ -28,13 +28,7 @@ module wavycon_grid_transform
       integer, private :: waves = 0     !! number of wave numbers in X that the points determine
       integer, private :: numbers = 0   !! real numbers for an element of the spectrum: cosine 1, complex wave 2
    contains
-      procedure :: start
-      procedure :: new_series
-      procedure :: series
-      procedure :: sample
-      procedure :: sample_waves
-      procedure :: sum_along_y
-      procedure :: sample_column
+      procedure :: start, new_series, series, sample, sample_waves, sum_along_y, sample_column
    end type grid_transform
 
    !> Number of rows of the spectrum that are copied at a time, so that copies use whole lines of the processor's cache.

@@ -16,11 +16,7 @@ contains
       real(dp), intent(in) :: spectrum(:, :, :)         !! shape (1, number of wave numbers of the series in X, N)
       type(fourier_series), intent(inout) :: answer     !! its array has been allocated by `new_series`
 
-      integer :: l
-
-      do l = 0, points(2) - 1
-         answer%c(:, l) = spectrum(1, :, l + 1)/(real(points(1), dp)*points(2))
-      end do
+      answer%c(:, :) = spectrum(1, :, :)/(real(points(1), dp)*points(2))
       ! A cosine of wave number zero has half the factor of the others.
       answer%c(:, 0) = 0.5_dp*answer%c(:, 0)
       if (answer%first() == 0) answer%c(0, :) = 0.5_dp*answer%c(0, :)

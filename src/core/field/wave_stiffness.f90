@@ -16,9 +16,7 @@ module wavycon_wave_stiffness
       !> Its unit is such that it is the frequency for short waves: at their scale every body is a half-space.
       generic :: of => of_dp, of_sp
       procedure, private :: of_dp, of_sp
-      procedure :: has_layer
-      procedure :: in_unit
-      procedure :: order
+      procedure :: has_layer, in_unit, order
    end type wave_stiffness
 
 contains

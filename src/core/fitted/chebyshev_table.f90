@@ -19,10 +19,7 @@ module wavycon_chebyshev_table
       real(dp), allocatable, private :: power(:, :)
       integer, allocatable, private :: degree(:)           !! for each power of v the degree of its polynomial in u
    contains
-      procedure :: set
-      procedure :: at
-      procedure :: set_powers
-      procedure :: evaluate_even
+      procedure :: set, at, set_powers, evaluate_even
    end type chebyshev_table
 
 contains
@@ -173,9 +170,7 @@ contains
 
       integer :: i, k
 
-      do i = 1, n
-         matrix(:, i) = [(merge(1, 2, k == 0)*cos(pi*k*(i - 0.5_dp)/n)/n, k=0, n - 1)]
-      end do
+      matrix = reshape([((merge(1, 2, k == 0)*cos(pi*k*(i - 0.5_dp)/n)/n, k=0, n - 1), i=1, n)], [n, n])
    end function coefficients
 
    !> The values of Chebyshev's polynomials T_0 to T_(n-1).

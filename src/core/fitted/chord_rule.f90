@@ -45,8 +45,7 @@ module wavycon_chord_rule
       real(dp), allocatable :: difference(:, :, :)        !! q_(fold k - 1) of README.md (F27), shape (n m, 2, K)
       real(dp), allocatable :: power(:, :, :)             !! `terms` of linearise_slopes, shape (n m, 2, K)
    contains
-      procedure :: rows
-      procedure :: place_points
+      procedure :: rows, place_points
    end type chord_rule
 
 contains

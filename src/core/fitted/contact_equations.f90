@@ -16,14 +16,13 @@
 !> fitted function, the approach of a spot or, with adhesion, the load of a pool, and the coefficients of the shape.
 !> There are more equations than unknowns, which are met in the sense of least squares.
 module wavycon_contact_equations
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use wavycon_chord_rule, only: chord_rule, start_chord_rule
    use wavycon_gauss_rules, only: disc_rule, start_disc_rule
    use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: chords_per_degree, extra_chord_points, extra_disc_angles, near_images_ratio, &
       pool_extra_angles, pool_extra_radii, sharp_chords_per_degree, sharp_collocation_factor, &
       sharp_collocation_ratio, sharp_quadrature_ratio, spot_extra_angles, spot_extra_radii
-   use wavycon_kinds, only: dp, pi
+   use wavycon_kinds, only: dp, not_a_number, pi
    use wavycon_lapack, only: dgemv
    use wavycon_lattice_images, only: lattice_images
    use wavycon_wave_lattice, only: wave_lattice
@@ -53,8 +52,7 @@ module wavycon_contact_equations
       !> The kernel of the images, with or without a series: see `prepare` there. start_equations keeps this component.
       type(lattice_images) :: images
    contains
-      procedure :: linearise
-      procedure :: integral
+      procedure :: linearise, integral
    end type contact_equations
 
 contains
@@ -173,7 +171,7 @@ contains
          call now%shape%linearise_edge(self%edge(i), ratio, log_slope)
          if (.not. ratio > 0.0_dp) then
             ! The map folds at the edge. NaN tells the caller that there is no step.
-            self%residual(row) = ieee_value(ratio, ieee_quiet_nan)
+            self%residual(row) = not_a_number()
             return
          else if (now%pool) then
             strength = 4*sqrt(now%work/ratio)

@@ -26,8 +26,7 @@ module wavycon_degree_history
       real(dp), private :: misfit = huge(1.0_dp)                   !! misfit of the newest solution
       type(fitted_function) :: newest(0:most_previous)             !! the last solutions, the newest first
    contains
-      procedure :: push
-      procedure :: best_meets
+      procedure :: push, best_meets
    end type degree_history
 
    !> The number of solutions that an error estimate needs.

@@ -19,8 +19,7 @@ module wavycon_disc_polynomials
       integer, allocatable :: radial(:)     !! l of each term, shape (N)
       real(dp), allocatable, private :: recurrence(:, :)  !! p_l = (r1 x + r2) p_(l-1) + r3 p_(l-2), shape (3, N)
    contains
-      procedure :: evaluate
-      procedure :: slopes
+      procedure :: evaluate, slopes
    end type disc_polynomials
 
 contains

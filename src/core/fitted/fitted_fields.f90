@@ -37,11 +37,8 @@ module wavycon_fitted_fields
       type(exterior_series), allocatable :: series       !! the field of one spot or pool outside of it
       type(chebyshev_table), private :: far              !! the field of all far images: even part, and odd part over x
    contains
-      procedure :: at
-      procedure :: prepare_map
-      procedure, private :: find_preimages
-      procedure, private :: sum_over_images
-      procedure, private :: coarse_sum
+      procedure :: at, prepare_map
+      procedure, private :: find_preimages, sum_over_images, coarse_sum
    end type fitted_fields
 
 contains

@@ -31,8 +31,7 @@ module wavycon_fitted_function
       real(dp) :: work = 0.0_dp              !! work of adhesion W >= 0 [pi E* Delta^2/s]
       real(dp) :: area = 0.0_dp              !! with adhesion only: given area of the spot or pool [s^2]
    contains
-      procedure :: resized
-      procedure :: at
+      procedure :: resized, at
    end type fitted_function
 
 contains

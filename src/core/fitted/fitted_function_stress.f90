@@ -29,10 +29,8 @@ module wavycon_fitted_function_stress
       type(lattice_stress_series), allocatable, private :: series
       type(far_stress), allocatable, private :: far
    contains
-      procedure :: at
-      procedure :: distance_from_edges
-      procedure, private :: prepare_series
-      procedure, private :: prepare_far
+      procedure :: at, distance_from_edges
+      procedure, private :: prepare_series, prepare_far
    end type fitted_function_stress
 
 contains

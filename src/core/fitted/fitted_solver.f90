@@ -1,6 +1,5 @@
 !> Solves the contact of a wave on a lattice to a given accuracy, by collocation fitted to the edge of contact.
 module wavycon_fitted_solver
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_equations, only: contact_equations, start_equations
    use wavycon_degree_history, only: degree_history, error_estimate
    use wavycon_fitted_answer, only: fitted_answer, fitted_bad_input, fitted_failed, fitted_less_exact, fitted_merged, &
@@ -11,7 +10,7 @@ module wavycon_fitted_solver
    use wavycon_fitted_size, only: merging_ratio, next_clustering, next_degree, shape_terms
    use wavycon_fitted_tuning, only: degree_step, first_degree, last_degree, round_shape_ratio, series_growth
    use wavycon_gauss_newton, only: change_with_area, newton_steps
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_finite
    use wavycon_load_continuation, only: is_start, start_at_area, start_at_load
    use wavycon_quantities, only: approach, contact_area, elastic_energy, mean_gap, peak_pressure, perimeter, &
       polynomial_degree, unknown
@@ -38,9 +37,7 @@ module wavycon_fitted_solver
       real(dp) :: changes(2) = 0.0_dp                        !! last step's change of the shape, the newest first
       real(dp) :: decay(2) = 1.0_dp                          !! decay of the slopes' errors, the newest first
    contains
-      procedure :: shift
-      procedure :: find_newest
-      procedure :: set_slopes
+      procedure :: shift, find_newest, set_slopes
    end type area_slopes
 
 contains

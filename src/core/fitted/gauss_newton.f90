@@ -1,10 +1,9 @@
 !> Gauss-Newton's method for the coefficients and the shape of a fitted function.
 module wavycon_gauss_newton
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use wavycon_contact_equations, only: contact_equations
    use wavycon_fitted_function, only: fitted_function
    use wavycon_fitted_tuning, only: longest_shape_change
-   use wavycon_kinds, only: dp
+   use wavycon_kinds, only: dp, ieee_is_finite
    use wavycon_lapack, only: dgglse
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -25,8 +24,7 @@ module wavycon_gauss_newton
       integer :: iterations = 0           !! number of steps at all degrees
       logical :: valid = .false.          !! whether the step is finite and the new shape is not about to fold
    contains
-      procedure :: solve
-      procedure :: step
+      procedure :: solve, step
    end type newton_steps
 
    !> Largest ratio of a step's change to the square of the last change while convergence is quadratic.

@@ -1,11 +1,10 @@
 !> Gauss quadrature with the weights of Jacobi's polynomials, and quadrature over the disc of functions with the
 !> symmetry of a contact, which needs points in one half sector only.
 module wavycon_gauss_rules
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_size_t
    use wavycon_gsl, only: gsl_integration_fixed_alloc, gsl_integration_fixed_free, &
       gsl_integration_fixed_jacobi, gsl_integration_fixed_nodes, gsl_integration_fixed_weights, return_gsl_errors
-   use wavycon_kinds, only: dp, pi
+   use wavycon_kinds, only: dp, not_a_number, pi
    implicit none (type, external)
    private
 
@@ -34,7 +33,7 @@ contains
       workspace = gsl_integration_fixed_alloc(gsl_integration_fixed_jacobi, size(nodes, kind=c_size_t), &
          -1.0_dp, 1.0_dp, right_power, left_power)
       if (.not. c_associated(workspace)) then
-         nodes = ieee_value(nodes, ieee_quiet_nan)
+         nodes = not_a_number()
          weights = nodes
          return
       end if

@@ -32,8 +32,7 @@ module wavycon_lattice_images
       type(disc_polynomials), private :: basis     !! the polynomials Psi
       real(dp), allocatable, private :: coefficient(:, :)   !! B [1/s], for the Laplacian [1/s^3], shape (N, N)
    contains
-      procedure :: prepare
-      procedure :: add_rows
+      procedure :: prepare, add_rows
    end type lattice_images
 
    !> F for all sources and targets, and its gradients.

@@ -75,12 +75,8 @@ contains
       real(dp) :: kx, ky, length, p, total(stress_field_count)
       integer :: i, j, last
 
-      do i = 0, ubound(x, 1)
-         x(i) = exp(cmplx(0.0_dp, i*self%base_x*place%re, dp))
-      end do
-      do j = 0, ubound(y, 1)
-         y(j) = exp(cmplx(0.0_dp, j*self%base_y*place%im, dp))
-      end do
+      x = [(exp(cmplx(0.0_dp, i*self%base_x*place%re, dp)), i=0, ubound(x, 1))]
+      y = [(exp(cmplx(0.0_dp, j*self%base_y*place%im, dp)), j=0, ubound(y, 1))]
       total = 0.0_dp
       do i = 0, ubound(x, 1)
          kx = i*self%base_x

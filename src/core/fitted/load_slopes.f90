@@ -57,8 +57,7 @@ contains
       logical, intent(out) :: found                        !! as of find_load_slopes
 
       type(contact_equations) :: equations
-      complex(dp) :: w
-      complex(dp) :: normal, place_change(0:ubound(now%shape%b, 1))
+      complex(dp) :: w, normal, place_change(0:ubound(now%shape%b, 1))
       real(dp), allocatable :: change(:), change_of_change(:)
       real(dp) :: load_change(2), total   ! total: the integral of the edge's velocity along the edge
       integer :: i, n

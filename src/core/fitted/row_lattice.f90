@@ -17,10 +17,7 @@ module wavycon_row_lattice
       real(dp) :: shift = 0.0_dp       !! shift of the next row along itself [s]: 0 or 1/2
       logical :: along_y = .false.     !! true: rows are along y; false: along x
    contains
-      procedure :: half_sides
-      procedure :: reduce
-      procedure :: reduced
-      procedure :: points_about
+      procedure :: half_sides, reduce, reduced, points_about
    end type row_lattice
 
 contains

@@ -28,21 +28,8 @@ module wavycon_shape_map
       real(dp) :: clustering = 0.0_dp   !! tau, 0 <= tau < 1/(fold+1)
       real(dp), allocatable :: b(:)     !! coefficients b_k [s], shape (0:K)
    contains
-      procedure :: position_of
-      procedure :: linearise_position
-      procedure :: find_differences
-      procedure :: linearise_slopes
-      procedure :: analytic_part
-      procedure :: slopes
-      procedure :: jacobian
-      procedure :: tangent
-      procedure :: linearise_edge
-      procedure :: area
-      procedure :: linearise_area
-      procedure :: radius
-      procedure :: position_outside
-      procedure :: linearise_outside
-      procedure :: perimeter
+      procedure :: position_of, linearise_position, find_differences, linearise_slopes, analytic_part, slopes, jacobian
+      procedure :: tangent, linearise_edge, area, linearise_area, radius, position_outside, linearise_outside, perimeter
    end type shape_map
 
 contains
@@ -347,11 +334,8 @@ contains
       points = most_edge_points
       if (ratio < 1.0_dp) points = min(ceiling(log(epsilon(ratio))/log(max(ratio, tiny(ratio)))), most_edge_points)
       points = max(points, least_edge_points)
-      perimeter = 0.0_dp
-      do i = 1, points
-         perimeter = perimeter + abs(self%tangent(exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(self%fold*points), dp))))
-      end do
-      perimeter = perimeter*2*pi/points
+      perimeter = sum([(abs(self%tangent(exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(self%fold*points), dp)))), i=1, points)]) &
+         *2*pi/points
    end function perimeter
 
 end module wavycon_shape_map

@@ -33,8 +33,7 @@ module wavycon_spot_integral
       type(stress_rays), allocatable, private :: rays
       type(disc_sources), private :: rules(levels)
    contains
-      procedure :: add_at
-      procedure :: is_resolved
+      procedure :: add_at, is_resolved
       procedure, private :: locate
    end type spot_integral
 

@@ -51,9 +51,7 @@ module wavycon_wave_lattice
       !> of pools, which turns a gap into a pressure, (F10).
       type(periodic_kernel) :: kernel(2)
    contains
-      procedure :: rise
-      procedure :: curvatures
-      procedure :: rise_slope
+      procedure :: rise, curvatures, rise_slope
    end type wave_lattice
 
 contains

@@ -38,8 +38,7 @@ module wavycon_compliance_operator
       !> S: replaces a pressure [p*] by its displacement [Delta], u - ubar on a periodic surface, u with free edges.
       generic :: displacement => displacement_dp, displacement_sp
       procedure :: pressure
-      procedure, private :: displacement_dp
-      procedure, private :: displacement_sp
+      procedure, private :: displacement_dp, displacement_sp
    end type compliance_operator
 
 contains

@@ -32,8 +32,7 @@ module wavycon_energy_bounds
       type(alias_sums), private :: sums
       real(dp), private :: eta = 0.0_dp   !! rounding error of a transform over the norm, (E25)
    contains
-      procedure :: start
-      procedure :: bound
+      procedure :: start, bound
    end type bounding_grid
 
    !> Bound of the relative rounding error of the sums of `alias_sums`. Each is a sum of positive terms and takes less

@@ -29,9 +29,7 @@ contains
 
       if (points(2) == 1) then
          allocate (kernel(0:points(1), 0:0))
-         do i = 0, points(1)
-            kernel(i, 0) = -2*step(1)*(line(i + 0.5_dp) - line(i - 0.5_dp) - log(real(points(1), dp)))
-         end do
+         kernel(:, 0) = [(-2*step(1)*(line(i + 0.5_dp) - line(i - 0.5_dp) - log(real(points(1), dp))), i=0, points(1))]
          return
       end if
       allocate (kernel(0:points(1), 0:points(2)))

@@ -25,8 +25,7 @@ module wavycon_binary_file
       integer, private :: unit = -1        !! Fortran's unit of the file; -1 if the file is not open
    contains
       procedure :: open => open_binary_file
-      procedure :: read_heights
-      procedure :: refuse
+      procedure :: read_heights, refuse
       procedure, private :: check
       procedure :: close => close_binary_file
    end type binary_file

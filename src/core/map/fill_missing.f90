@@ -136,8 +136,7 @@ contains
       real(dp), intent(inout) :: field(:, :)    !! shape (M, N)
       real(dp), intent(out) :: image(:)         !! sum of weight times (value - neighbour), at the n points
 
-      integer :: next_x(0:size(field, 1) + 1), next_y(0:size(field, 2) + 1)
-      integer :: k, n
+      integer :: next_x(0:size(field, 1) + 1), next_y(0:size(field, 2) + 1), k, n
 
       ! Beyond a border there is the point itself, whose difference from itself is zero, or in a periodic map the point
       ! on the other side.

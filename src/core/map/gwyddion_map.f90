@@ -164,9 +164,7 @@ contains
       real(dp) :: numbers(size(keys))   ! entries of the keys; 0 if a key is not there
 
       head = newline//lower_case(file%head)
-      do i = 1, size(keys)
-         numbers(i) = positive_number(entry_of(head, trim(keys(i)), blanks))
-      end do
+      numbers = [(positive_number(entry_of(head, trim(keys(i)), blanks)), i=1, size(keys))]
       if (any(numbers(:2) <= 0)) return
       if (abs(product(anint(numbers(:2))) - size(map%height)) > 0.0_dp) then
          call file%refuse('its head announces '//short_number(numbers(1))//' x '//short_number(numbers(2))// &

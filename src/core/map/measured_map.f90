@@ -31,9 +31,7 @@ module wavycon_measured_map
       character(:), allocatable :: height_unit     !! unit of the heights; allocated if length_unit is
       type(grid_slab) :: slab                      !! if the map is distributed, which columns are the own ones
    contains
-      procedure :: set_units
-      procedure :: columns
-      procedure :: keep_own_columns
+      procedure :: set_units, columns, keep_own_columns
    end type measured_map
 
 contains

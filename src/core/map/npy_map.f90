@@ -27,8 +27,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: order, shape_words, type_words
-      integer :: first, last, number
-      integer :: points(2), sides(3)
+      integer :: first, last, number, points(2), sides(3)
 
       if (index(file%head, npy_magic) /= 1) then
          call file%refuse('this is no .npy file: it does not begin with \x93NUMPY', error)

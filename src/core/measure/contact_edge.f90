@@ -27,10 +27,7 @@ module wavycon_contact_edge
    contains
       procedure(point_in_contact), deferred :: in_contact
       procedure(edge_between_points), deferred :: set_edge_point
-      procedure :: angles
-      procedure :: side
-      procedure :: cell_area
-      procedure :: beside_chord
+      procedure :: angles, side, cell_area, beside_chord
    end type contact_edge
 
    abstract interface

@@ -52,16 +52,8 @@ module wavycon_grid_edge
       logical :: of_cells = .false.       !! true: pressures are uniform on grid cells, as with free edges; false: waves
       type(edge_rule) :: rule             !! the constants for this kind of pressures
    contains
-      procedure :: in_contact
-      procedure :: set_edge_point
-      procedure :: beside_chord
-      procedure :: index_in_grid
-      procedure :: value_at
-      procedure :: column
-      procedure :: beside
-      procedure :: may_touch
-      procedure :: marks
-      procedure :: fetch_neighbours
+      procedure :: in_contact, set_edge_point, beside_chord, index_in_grid
+      procedure :: value_at, column, beside, may_touch, marks, fetch_neighbours
    end type grid_edge
 
    !> How many columns of the neighbouring processes the area and the peak pressure of a distributed grid need.

@@ -76,9 +76,7 @@ contains
       type(crest_type) :: crests(size(places, 2))
 
       call find_crests(edge, places, number, possible)
-      do i = 1, number
-         crests(i) = crest_at(edge, places(:, i))
-      end do
+      crests(:number) = [(crest_at(edge, places(:, i)), i=1, number)]
       call find_full_pressures(edge, surface, crests(:number), full)
       peak = 0.0_dp
       bend = unknown
@@ -270,7 +268,7 @@ contains
       real(dp), parameter :: least_part = 0.4_dp
       !> Maxima that differ by less than this part are mirror images or repetitions: of them one is tried.
       real(dp), parameter :: alike = 1e-6_dp
-      real(dp) :: expected, highest, minus_number(1), top(1)
+      real(dp) :: expected, highest, top(1)
       real(dp) :: raised(size(best, 2) + 1)          ! of the own points, falling; then 0
       integer :: own(2, size(best, 2) + 1)           ! their places
       integer :: i, j, k, l, m, most
@@ -309,14 +307,9 @@ contains
          top = edge%slab%largest(raised(i:i))
          left = top(1)
          if (number == most .or. .not. left > 0.0_dp) return
-         minus_number = -huge(minus_number)
          is_top = raised(i) >= (1.0_dp - alike)*left
-         if (is_top) minus_number = -(own(1, i) - 1.0_dp + real(m, dp)*(own(2, i) - 1))
-         top = edge%slab%largest(minus_number)
+         best(:, number + 1) = edge%slab%first_point(is_top, own(:, i))
          if (is_top) i = i + 1
-         best(2, number + 1) = int(-top(1)/m)
-         best(1, number + 1) = nint(-top(1) - real(m, dp)*best(2, number + 1))
-         best(:, number + 1) = best(:, number + 1) + 1
       end do
    end subroutine find_crests
 

@@ -11,8 +11,7 @@ module wavycon_histogram
       real(dp), allocatable :: fraction(:)         !! for each bin, part of the whole area with values in the bin
       real(dp), allocatable :: mean(:)             !! mean of the values in the bin; its middle if there are none
    contains
-      procedure :: middle
-      procedure :: density
+      procedure :: middle, density
    end type histogram
 
 contains

@@ -23,9 +23,7 @@ module wavycon_isobar_grid
       !> (0:n, 0:N, 2). The last index is 1 for the lines theta = theta_l and 2 for the lines phi = phi_k.
       real(dp), allocatable :: along(:, :, :), across(:, :, :)
    contains
-      procedure :: in_contact
-      procedure :: set_edge_point
-      procedure :: area_fraction
+      procedure :: in_contact, set_edge_point, area_fraction
       procedure, private :: node
    end type isobar_grid
 
@@ -50,9 +48,7 @@ contains
       grid%pressure = grid%pressure - level
       cosines = transpose(cosine_table(intervals, n))
       sine = [(sin(pi*k/intervals), k=0, 2*intervals - 1)]
-      do i = 0, n
-         sines(i, :) = [(-i*sine(modulo(i*k, 2*intervals)), k=0, intervals)]
-      end do
+      sines = reshape([((-i*sine(modulo(i*k, 2*intervals)), i=0, n), k=0, intervals)], shape(sines))
       allocate (grid%along(0:n, 0:intervals, 2), grid%across(0:n, 0:intervals, 2))
       grid%along(:, :, 1) = matmul(pressure%c, cosines)
       grid%across(:, :, 1) = matmul(pressure%c, sines)

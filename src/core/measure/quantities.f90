@@ -97,8 +97,7 @@ module wavycon_quantities
       real(dp) :: value(number_of_quantities) = initial_value   !! value of each quantity, or `unknown`
       real(dp) :: error(number_of_quantities) = initial_error   !! error estimate of each quantity, or `unknown`
    contains
-      procedure :: main_values
-      procedure :: are_resolved
+      procedure :: main_values, are_resolved
    end type quantities
 
 contains

@@ -21,8 +21,7 @@ module wavycon_cosine_rows
       integer :: points_per_side = 0          !! N
       integer, allocatable :: k(:), l(:)      !! the points as chosen by `choose_points`, shape (m)
    contains
-      procedure :: of
-      procedure :: squares
+      procedure :: of, squares
    end type cosine_rows
 
 contains
@@ -66,8 +65,7 @@ contains
       real(dp), intent(in) :: weights(:)           !! the diagonal of W, shape (m) or (2 m)
       real(dp), intent(out) :: matrix(:, :)        !! shape (n, n)
 
-      real(dp) :: cosines(0:self%points_per_side - 1, 0:2*self%terms%harmonics)
-      real(dp) :: factor(self%terms%count)
+      real(dp) :: cosines(0:self%points_per_side - 1, 0:2*self%terms%harmonics), factor(self%terms%count)
       real(dp) :: grid(0:self%points_per_side - 1, 0:self%points_per_side - 1)
       real(dp), dimension(0:2*self%terms%harmonics, 0:2*self%terms%harmonics) :: t   ! the sums of W cos cos, over 4
       logical :: has_pairs

@@ -39,8 +39,7 @@ module wavycon_dual_solver
       type(qp_problem) :: problem
       type(working_set) :: set
    contains
-      procedure :: solve
-      procedure :: pass_to
+      procedure :: solve, pass_to
    end type dual_solver
 
 contains
@@ -108,8 +107,7 @@ contains
       real(dp) :: x(size(problem%linear)), multipliers(size(problem%linear)), slacks(size(problem%bounds))
       real(dp) :: slack, slack_terms, kept_slack
       real(dp), allocatable :: normals(:, :)       ! those of the candidates
-      integer :: candidates(size(problem%bounds))
-      integer :: listed, i, n, place, violated, small_steps
+      integer :: candidates(size(problem%bounds)), listed, i, n, place, violated, small_steps
       logical :: is_active
 
       n = size(x)

@@ -29,9 +29,7 @@ module wavycon_load_tree
       real(dp) :: corner(2) = 0.0_dp         !! x and y of the first block's lower corner [rad of x]
       type(tree_level), allocatable :: levels(:)   !! the first has the lattice's own forces, the last one block
    contains
-      procedure :: left_out
-      procedure :: sums
-      procedure :: sums_on_plane
+      procedure :: left_out, sums, sums_on_plane
    end type load_tree
 
 contains

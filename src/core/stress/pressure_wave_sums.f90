@@ -26,12 +26,7 @@ module wavycon_pressure_wave_sums
       real(dp) :: sampled_from = huge(1.0_dp)   !! waves with q above this are the last octave of a grid, (S5)
       real(dp) :: faintest = deepest            !! waves with q Z above this are left out
    contains
-      procedure :: start
-      procedure :: last_waves
-      procedure :: octave_reaches
-      procedure :: find_moments
-      procedure :: find_spectra
-      procedure :: scan_plane
+      procedure :: start, last_waves, octave_reaches, find_moments, find_spectra, scan_plane
    end type pressure_wave_sums
 
 contains

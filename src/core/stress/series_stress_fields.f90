@@ -48,13 +48,7 @@ module wavycon_series_stress_fields
       !> With free edges only: the waves of the whole pressure, with its mean.
       type(pressure_wave_sums), allocatable :: whole
    contains
-      procedure :: remove_images
-      procedure :: at
-      procedure :: expand
-      procedure :: near
-      procedure :: on_line
-      procedure :: on_plane
-      procedure :: start_points
+      procedure :: remove_images, at, expand, near, on_line, on_plane, start_points
    end type series_stress_fields
 
 contains
@@ -117,8 +111,7 @@ contains
    !> The stress at one point: that on a line of a single point.
    subroutine at(self, x, y, depth, nu_terms, error)
       class(series_stress_fields), intent(inout) :: self
-      real(dp), intent(in) :: x, y
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: x, y, depth
       real(dp), intent(out) :: nu_terms(6, 2)
       real(dp), intent(out), optional :: error
 
@@ -134,8 +127,7 @@ contains
    !> series about the place is made.
    subroutine expand(self, place, width, reach, noise)
       class(series_stress_fields), intent(inout) :: self
-      real(dp), intent(in) :: place(3)
-      real(dp), intent(in) :: width, reach
+      real(dp), intent(in) :: place(3), width, reach
       real(dp), intent(out) :: noise
 
       real(dp), allocatable :: distances(:)
@@ -244,8 +236,7 @@ contains
       class(series_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: start(2)
       integer, intent(in) :: direction(2)
-      real(dp), intent(in) :: t(:)
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: t(:), depth
       real(dp), intent(out) :: nu_terms(:, :, :), error(:)
 
       complex(dp), allocatable :: along(:, :), turn_x(:), waves(:)
@@ -310,11 +301,9 @@ contains
    subroutine on_plane(self, points, offset, depth, body, stress, error)
       class(series_stress_fields), intent(inout) :: self
       integer, intent(in) :: points(2)
-      real(dp), intent(in) :: offset(2)
-      real(dp), intent(in) :: depth
+      real(dp), intent(in) :: offset(2), depth
       type(elastic_body), intent(in) :: body
-      real(dp), allocatable, intent(out) :: stress(:, :, :)
-      real(dp), allocatable, intent(out) :: error(:, :)
+      real(dp), allocatable, intent(out) :: stress(:, :, :), error(:, :)
 
       complex(dp), allocatable :: waves(:, :, :)
       real(dp), allocatable :: fields(:, :, :), smooth(:, :, :)

@@ -31,13 +31,7 @@ module wavycon_stress_fields
       !> otherwise 1 (surface%maps_in_cell()).
       integer :: maps_in_cell(2) = 1
    contains
-      procedure :: at
-      procedure :: start_points
-      procedure :: expand
-      procedure :: near
-      procedure :: on_line
-      procedure :: on_plane
-      procedure :: set_stresses
+      procedure :: at, start_points, expand, near, on_line, on_plane, set_stresses
    end type stress_fields
 
 contains

@@ -15,8 +15,7 @@ module wavycon_stress_setting
       real(dp), allocatable :: yield_stress(:)   !! of each body, in uniaxial tension [p*]; not allocated if not given
       logical :: by_shear = .false.              !! true: bodies yield by Tresca's criterion; false: by von Mises'
    contains
-      procedure :: over_yield_stress
-      procedure :: find_over_yield_stress
+      procedure :: over_yield_stress, find_over_yield_stress
    end type stress_setting
 
 contains

@@ -10,9 +10,7 @@ module wavycon_paraboloid
    type :: paraboloid
       real(dp) :: c(2) = 0.0_dp   !! coefficients, as part of a surface in Delta, >= 0
    contains
-      procedure :: is_flat
-      procedure :: gap
-      procedure :: subtract_from
+      procedure :: is_flat, gap, subtract_from
    end type paraboloid
 
 contains

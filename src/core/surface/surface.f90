@@ -48,18 +48,8 @@ module wavycon_surface
       real(dp) :: ridges(2) = 0.0_dp
       real(dp) :: hardness = huge(1.0_dp)       !! H, upper bound of the pressure [p*]; huge if the bodies stay elastic
    contains
-      procedure :: maps_in_cell
-      procedure :: sides
-      procedure :: nominal_area
-      procedure :: is_height_map
-      procedure :: is_distributed
-      procedure :: has_hardness
-      procedure :: waves_on_step
-      procedure :: full_contact_pressure
-      procedure :: shape_at
-      procedure :: sample_shape
-      procedure :: sample_gap
-      procedure :: roughness
+      procedure :: maps_in_cell, sides, nominal_area, is_height_map, is_distributed, has_hardness
+      procedure :: waves_on_step, full_contact_pressure, shape_at, sample_shape, sample_gap, roughness
    end type surface_type
 
 contains

@@ -18,8 +18,7 @@ module wavycon_unit_scale
       real(dp) :: period(2) = 1.0_dp           !! sides L_x, L_y of the surface's cell [length]
       logical :: repeats = .true.              !! whether the cell is repeated: not with free edges
    contains
-      procedure :: angles
-      procedure :: depth_angle
+      procedure :: angles, depth_angle
    end type unit_scale
 
 contains

@@ -22,8 +22,7 @@ module wavycon_deck_text
       character(:), allocatable :: content     !! lines that end in LF, CR LF or CR, and a line for each option
       integer :: last_of_deck = 0              !! position of the last byte of the file's text; options are behind it
    contains
-      procedure :: line_of
-      procedure :: line_bounds
+      procedure :: line_of, line_bounds
    end type deck_text_type
 
    interface deck_text_type

@@ -31,8 +31,7 @@ module wavycon_key_group
       logical :: is_true = .false.             !! whether `number` is > 0: the value of a logical key
       character(:), allocatable :: text        !! value of texts and choices, without blanks at its end; or empty
    contains
-      procedure :: set
-      procedure :: set_default
+      procedure :: set, set_default
    end type key_value
 
    !> The components that the records of all groups have. The record of a group extends this type by its keys.
@@ -70,12 +69,7 @@ module wavycon_key_group
    contains
       procedure :: add
       procedure :: close => close_list
-      procedure :: start
-      procedure :: take
-      procedure :: take_value
-      procedure :: words
-      procedure :: asked_for
-      procedure :: check_relations
+      procedure :: start, take, take_value, words, asked_for, check_relations
    end type key_list
 
 contains

@@ -142,8 +142,7 @@ contains
    pure subroutine read_choice(key, word, text, trouble)
       type(key_type), intent(in) :: key
       character(*), intent(in) :: word
-      character(:), allocatable, intent(out) :: text
-      character(:), allocatable, intent(out) :: trouble
+      character(:), allocatable, intent(out) :: text, trouble
 
       character(name_length), allocatable :: choices(:)
 

@@ -18,9 +18,7 @@ module wavycon_problems
       integer :: number = 0                   !! number of all problems, also of those that are not kept
       type(problem_type) :: items(most_kept)  !! the first ones found, in the order of their positions
    contains
-      procedure :: add
-      procedure :: join
-      procedure :: is_full
+      procedure :: add, join, is_full
    end type problem_list_type
 
 contains

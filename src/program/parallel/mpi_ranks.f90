@@ -19,12 +19,8 @@ module wavycon_mpi_ranks
    !> The communicator of all processes that mpirun has started.
    type, extends(communicator) :: mpi_communicator
    contains
-      procedure, nopass :: add_reals
-      procedure, nopass :: add_integers
-      procedure, nopass :: largest
-      procedure :: move
-      procedure :: exchange_rows
-      procedure :: finish
+      procedure, nopass :: add_reals, add_integers, largest
+      procedure :: move, exchange_rows, finish
    end type mpi_communicator
 
 contains
@@ -81,8 +77,7 @@ contains
    !> N.B. The unit of the messages is a column, because numbers of bytes may exceed the integers of MPI.
    subroutine move(self, column_bytes, have, own, want, wanted)
       class(mpi_communicator), intent(in) :: self
-      integer, intent(in) :: column_bytes
-      integer, intent(in) :: have(:, 0:), want(:, 0:)
+      integer, intent(in) :: column_bytes, have(:, 0:), want(:, 0:)
       type(*), intent(in), target :: own(*)
       type(*), intent(inout), target :: wanted(*)
 
@@ -107,8 +102,7 @@ contains
    !> The messages are described to MPI as they lie in the arrays, so that no copies are made before or afterwards.
    subroutine exchange_rows(self, bytes, columns, rows, by_columns, by_rows, to_rows)
       class(mpi_communicator), intent(in) :: self
-      integer, intent(in) :: bytes
-      integer, intent(in) :: columns(:, 0:), rows(:, 0:)
+      integer, intent(in) :: bytes, columns(:, 0:), rows(:, 0:)
       type(*), intent(inout), target :: by_columns(*), by_rows(*)
       logical, intent(in) :: to_rows
 

@@ -48,9 +48,7 @@ module wavycon_checkpoint
       character(:), allocatable, private :: name               !! path of the file
       character(:), allocatable, private :: description        !! of the run, from describe
    contains
-      procedure :: create
-      procedure :: add
-      procedure :: finish
+      procedure :: create, add, finish
    end type checkpoint_file
 
 contains

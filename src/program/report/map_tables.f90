@@ -100,8 +100,7 @@ contains
       !> Writes the map of the load, whose columns are distributed over the ranks. All ranks call this procedure: they
       !> send the columns one by one to the first rank, which writes them.
       subroutine put_distributed()
-         integer :: column, k, l
-         integer :: image(map%points(1))
+         integer :: column, k, l, image(map%points(1))
          logical :: is_own
          real(dp), dimension(fields%own_slab%points(1)) :: gap, p, u
          real(dp), allocatable :: height(:, :)

@@ -32,10 +32,7 @@ module wavycon_memory_table
       character(longest_word), allocatable :: words(:)
       logical :: is_full = .false.                          !! whether memory was too short for further rows
    contains
-      procedure :: start
-      procedure :: add_row
-      procedure :: find_column
-      procedure :: text
+      procedure :: start, add_row, find_column, text
    end type memory_table
 
 contains

@@ -28,8 +28,7 @@ module wavycon_notes
    type :: log_line
       character(:), allocatable :: names, words   !! the line of names, and the row
    contains
-      procedure :: start
-      procedure :: add
+      procedure :: start, add
    end type log_line
 
 contains

@@ -61,16 +61,8 @@ module wavycon_output_file
       character(:), allocatable :: units                 !! the line of the units, each in brackets
    contains
       procedure :: open => open_file
-      procedure :: replace
-      procedure :: is_open
-      procedure :: put
-      procedure :: put_words
-      procedure :: put_numbers
-      procedure :: put_columns
-      procedure :: begin_block
-      procedure :: put_row
-      procedure :: note_trouble
-      procedure :: finish
+      procedure :: replace, is_open, put, put_words, put_numbers
+      procedure :: put_columns, begin_block, put_row, note_trouble, finish
    end type output_file
 
 contains

@@ -52,17 +52,8 @@ module wavycon_results
       integer, allocatable :: order(:)                       !! numbers of the loads in the order of their solution
       type(memory_table), pointer :: memory => null()        !! if associated, a table is written to it, not to a file
    contains
-      procedure :: find_spots
-      procedure :: find_slopes
-      procedure :: swap_contacts
-      procedure :: open_table
-      procedure :: begin_block
-      procedure :: unit_in_words
-      procedure :: in_p_star
-      procedure :: number
-      procedure :: mean_pressure
-      procedure :: stress_status
-      procedure :: is_solved_in
+      procedure :: find_spots, find_slopes, swap_contacts, open_table, begin_block
+      procedure :: unit_in_words, in_p_star, number, mean_pressure, stress_status, is_solved_in
    end type results_type
 
 contains

@@ -22,13 +22,7 @@ module wavycon_run_log
       integer(int64) :: started = 0, rate = 1   !! the system's clock at the start, and its counts per second
       real(dp) :: last_progress = 0.0_dp   !! time of the last progress line since the start [s]
    contains
-      procedure :: start
-      procedure :: say
-      procedure :: note
-      procedure :: say_timed
-      procedure :: say_progress
-      procedure :: is_due
-      procedure :: elapsed
+      procedure :: start, say, note, say_timed, say_progress, is_due, elapsed
    end type run_log
 
    !> Shows the grids and iterations of a load as progress lines. The solver calls `grid_solved` and `shall_stop`.
@@ -38,8 +32,7 @@ module wavycon_run_log
       integer :: solved = 0            !! number of loads that were solved
       real(dp) :: last = 0.0_dp        !! time at which the last of these was solved, since the start of the log [s]
    contains
-      procedure :: grid_solved
-      procedure :: shall_stop
+      procedure :: grid_solved, shall_stop
    end type log_progress
 
 contains

@@ -48,10 +48,7 @@ module wavycon_table
       procedure(load_interface), pointer, nopass :: put_load => null()
       procedure(write_interface), pointer, pass(table) :: write_all => null()
    contains
-      procedure :: name
-      procedure :: is_requested
-      procedure :: refusal
-      procedure :: is_written_by_all
+      procedure :: name, is_requested, refusal, is_written_by_all
       procedure :: write => write_table
    end type table_type
 

@@ -32,11 +32,7 @@ module wavycon_work_sharing
       logical :: is_shared = .false.      !! whether more than one rank works
       integer, allocatable, private :: rank_of_load(:)   !! the rank that solves each load, if loads are distributed
    contains
-      procedure :: memory_of_each
-      procedure :: words
-      procedure :: deal_loads
-      procedure :: is_own_load
-      procedure :: share_loads
+      procedure :: memory_of_each, words, deal_loads, is_own_load, share_loads
       procedure, nopass :: share_numbers
       !> Begins or ends a time in which each rank works by itself, without exchange.
       procedure, nopass :: work_alone
