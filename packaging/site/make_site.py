@@ -191,9 +191,9 @@ def fortran_entry(text, name, level, called=None):
     components, _, procedures = body.partition("   contains\n")
     if kind == "type":
         shown = "".join(line for line in components.splitlines(True) if "private" not in line)
-        bound = [(end or start or first, first) for start, first, end in
-                 re.findall(r"^ *procedure(?:\((\w+)\))?(?:, (?!private)\w+)* :: (\w+)(?: => (\w+))?", procedures,
-                            re.MULTILINE)]
+        lists = re.findall(r"^ *procedure(?:\((\w+)\))?(?:, (?!private)\w+)* :: (.*)", procedures, re.MULTILINE)
+        bound = [(end or start or first, first) for start, names in lists
+                 for first, end in re.findall(r"(\w+)(?: => (\w+))?", names)]
     else:
         for line in body.splitlines(True):
             if re.match(rf"\s*(?:!|(?:{KINDS}|procedure)\b.*(?:intent|::))", line):

@@ -18,10 +18,15 @@ contains
       real(dp) :: cosine(0:intervals)
       integer :: i, k
 
-      cosine = [(cos(pi*k/intervals), k=0, intervals)]
-      if (mod(intervals, 2) == 0) cosine(intervals/2) = 0.0_dp
-      ! The second half has the digits of the first: cos(pi - x) = -cos(x).
-      cosine(intervals/2 + 1:) = -cosine((intervals - 1)/2:0:-1)
+      do k = 0, intervals
+         if (2*k == intervals) then
+            cosine(k) = 0.0_dp
+         else if (2*k < intervals) then
+            cosine(k) = cos(pi*k/intervals)
+         else
+            cosine(k) = -cosine(intervals - k)
+         end if
+      end do
       do i = 0, harmonics
          table(:, i) = cosine(folded([(i*k, k=0, intervals)], intervals))
       end do
