@@ -123,8 +123,8 @@ contains
       end if
    end subroutine add_wave
 
-   !> The sizes of the slopes along X and Y, sums over the waves of k^2 |W_kl|^2 and l^2 |W_kl|^2 to the power 1/2, if the
-   !> crests of all waves are parallel, or nearly: (C15d) of src/core/contact/README.md. Otherwise 0.
+   !> The sizes of the slopes along X and Y, sums over the waves of k^2 |W_kl|^2 and l^2 |W_kl|^2 to the power 1/2, if
+   !> the crests of all waves are parallel, or nearly: (C15d) of src/core/contact/README.md. Otherwise 0.
    function parallel_slopes(self, length) result(slopes)
       class(fourier_series), intent(in) :: self
       real(dp), intent(in) :: length(2)   !! sides of the cell along x and y, > 0

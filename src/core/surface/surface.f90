@@ -43,8 +43,8 @@ module wavycon_surface
       real(dp) :: full_contact_peak = 1.0_dp    !! largest p - pbar in full contact [p*]; the least is -1
       !> The largest sum of the two principal curvatures over 4 pi^2 Delta [1/length^2]; of a map at its points.
       real(dp) :: crest_curvature = 0.0_dp
-      !> Parallel ridges: sizes of the slopes of the shape along X and Y, `parallel_slopes` of its series; 0 if crests of
-      !> waves are not nearly parallel, and with free edges.
+      !> Parallel ridges: sizes of the slopes of the shape along X and Y, `parallel_slopes` of its series; 0 if crests
+      !> of waves are not nearly parallel, and with free edges.
       real(dp) :: ridges(2) = 0.0_dp
       real(dp) :: hardness = huge(1.0_dp)       !! H, upper bound of the pressure [p*]; huge if the bodies stay elastic
    contains
