@@ -164,9 +164,9 @@ module wavycon_contact_tuning
    !> this part of the error that the area's error makes of logit P, and than the second constant (C18a). So it adds at
    !> most .15 of itself to the told error. Next to the load at which spots merge a fitted solution takes up to 7 s.
    real(dp), parameter, public :: part_of_area_error = 0.3_dp, widest_bracket = 2e-3_dp
-   !> Factor of (C18b) on the change of that load from the next coarser level, and on what the error of the area makes
-   !> of it. Contact closes the last neck across a rough cell late by a distance of the order of a step, so that the
-   !> load may converge with the step, not with its square: with 1.25 and 1 the largest error was .96 of its estimate.
+   !> Factor of (C18b) on what the error of the area makes of that load, beside `change_safety` on its change from the
+   !> next coarser level: with 1 the largest error was .96 of its estimate. Contact closes the last neck across a cell
+   !> late by a distance of the order of a step, so that the load may converge with the step, not with its square.
    real(dp), parameter, public :: percolation_safety = 2.0_dp
    !> If grids are refined to an accuracy, coarser levels of a search have 10, 100, ... times the error, up to this one.
    !> Less accurate solutions do not help the search, because their areas differ too much from the final ones.
