@@ -21,6 +21,9 @@ module wavycon_grid_stress_fields
       procedure, private :: add_ringing
    end type grid_stress_fields
 
+   !> Less than this is not added: it is what is left one step deep.
+   real(dp), parameter :: least_left = 0.18_dp
+
 contains
 
    !> The stresses along a line, with the ringing in their errors.
@@ -32,11 +35,14 @@ contains
       real(dp), intent(out) :: nu_terms(:, :, :), error(:)
 
       integer :: i
+      real(dp) :: at_surface(6, 2, size(t)), unused(size(t))
 
       call self%series_stress_fields%on_line(start, direction, t, depth, nu_terms, error)
-      if (depth > 0.0_dp) return
+      if (self%ringing_left(depth) < least_left) return
+      at_surface = nu_terms
+      if (depth > 0.0_dp) call self%series_stress_fields%on_line(start, direction, t, 0.0_dp, at_surface, unused)
       do i = 1, size(t)
-         call self%add_ringing(start + direction*t(i), nu_terms(zz, 1, i) - self%pbar_over_pstar, error(i))
+         call self%add_ringing(start + direction*t(i), depth, at_surface(zz, 1, i) - self%pbar_over_pstar, error(i))
       end do
    end subroutine on_line
 
@@ -49,21 +55,26 @@ contains
       real(dp), allocatable, intent(out) :: stress(:, :, :), error(:, :)
 
       integer :: k, l
+      real(dp), allocatable :: at_surface(:, :, :), unused(:, :)
 
       call self%series_stress_fields%on_plane(points, offset, depth, body, stress, error)
-      if (depth > 0.0_dp) return
+      if (self%ringing_left(depth) < least_left) return
+      at_surface = stress
+      if (depth > 0.0_dp) call self%series_stress_fields%on_plane(points, offset, 0.0_dp, body, at_surface, unused)
       do l = 1, points(2)
          do k = 1, points(1)
-            call self%add_ringing(2*pi*([k, l] - 1 + offset)/(self%maps_in_cell*points), stress(k, l, zz), error(k, l))
+            call self%add_ringing(2*pi*([k, l] - 1 + offset)/(self%maps_in_cell*points), depth, at_surface(k, l, zz), &
+                                  error(k, l))
          end do
       end do
    end subroutine on_plane
 
-   !> Adds the error of the vertical stress at a place on the surface to that of the stresses, (S14).
-   subroutine add_ringing(self, place, vertical, error)
+   !> Adds what is left of the error of the vertical stress at a place on the surface to that of the stresses, (S14).
+   subroutine add_ringing(self, place, depth, vertical, error)
       class(grid_stress_fields), intent(inout) :: self
       real(dp), intent(in) :: place(2)       !! X, Y [rad]
-      real(dp), intent(in) :: vertical       !! zz, with that of the mean pressure [p*]
+      real(dp), intent(in) :: depth          !! Z
+      real(dp), intent(in) :: vertical       !! zz at the surface, with that of the mean pressure [p*]
       real(dp), intent(inout) :: error       !! [p*]; NaN stays
 
       real(dp) :: displacement, gap, pressure
@@ -72,7 +83,8 @@ contains
       call self%fields%at(place(1), place(2), pressure, displacement, gap)
       ! Beyond a map with free edges the fields are those of its mirror images.
       if (.not. self%repeats .and. any(abs(place(:self%dimension) - 0.5_dp*pi) > 0.5_dp*pi)) pressure = 0.0_dp
-      error = self%pressure_error + hypot(error - self%pressure_error, vertical + pressure)
+      error = self%pressure_error + &
+              hypot(error - self%pressure_error, self%ringing_left(depth)*(vertical + pressure))
    end subroutine add_ringing
 
 end module wavycon_grid_stress_fields

@@ -48,7 +48,7 @@ module wavycon_series_stress_fields
       !> With free edges only: the waves of the whole pressure, with its mean.
       type(pressure_wave_sums), allocatable :: whole
    contains
-      procedure :: remove_images, at, expand, near, on_line, on_plane, start_points
+      procedure :: remove_images, at, expand, near, on_line, on_plane, ringing_left, start_points
    end type series_stress_fields
 
 contains
@@ -294,6 +294,21 @@ contains
       if (.not. stress%waves%sampled_from < huge(1.0_dp)) return
       if (.not. ieee_is_nan(error_of)) error_of = max(error_of, vertical)
    end function error_of
+
+   !> What is left at a depth, at most, of the ringing of a grid's series at the surface, over this (S14).
+   pure real(dp) function ringing_left(self, depth)
+      class(series_stress_fields), intent(in) :: self
+      real(dp), intent(in) :: depth   !! Z
+
+      ringing_left = 1.0_dp
+      if (.not. depth > 0.0_dp) return
+      ! Without a grid no wave is missing.
+      ringing_left = 0.0_dp
+      if (.not. self%waves%sampled_from < huge(1.0_dp)) return
+      associate (highest => 2*self%waves%sampled_from)
+         ringing_left = (1.0_dp + highest*depth)*exp(-highest*depth)
+      end associate
+   end function ringing_left
 
    !> The stresses on a plane, by one transform for each component and three for the error (S5). Waves that have the
    !> same values at the points as a slower wave (aliases) are added to the slower wave. So the values at the points are
