@@ -130,7 +130,7 @@ contains
       real(dp), intent(in) :: length(2)   !! sides of the cell along x and y, > 0
       real(dp) :: slopes(2)
 
-      real(dp) :: moments(3), powers(self%first():self%last(1)), sums(3, self%first():self%last(1))
+      real(dp) :: moments(3), powers(self%first():self%last(1)), scale(2), sums(3, self%first():self%last(1))
       complex(dp) :: waves(self%first():self%last(1))
       integer :: k, l
 
@@ -145,8 +145,10 @@ contains
       end do
       moments = self%rows%column_totals(sums)
       slopes = sqrt(moments(:2))
-      ! For parallel crests the third moment is the root of the product of the other two.
-      moments = moments/[length**2, product(length)]
+      ! For parallel crests the third moment is the root of the product of the other two. Sides are taken over the
+      ! smaller one, so that products neither overflow nor underflow, whatever the unit of length is.
+      scale = minval(length)/length
+      moments = moments*[scale**2, product(scale)]
       if (product(moments(:2)) - moments(3)**2 > (slope_along*sum(moments(:2)))**2) slopes = 0.0_dp
    end function parallel_slopes
 
