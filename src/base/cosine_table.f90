@@ -18,6 +18,7 @@ contains
       real(dp) :: cosine(0:intervals)
       integer :: i, k
 
+      ! N.B. Of an array expression gfortran computes several cosines at a time, whose last digits differ.
       do k = 0, intervals
          if (2*k == intervals) then
             cosine(k) = 0.0_dp

@@ -268,6 +268,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       real(dp), intent(out), optional :: stress_error(points(1), points(2))
 
+      integer :: i
       type(elastic_body) :: body
       real(dp) :: first(2)
       real(dp), allocatable :: errors(:, :), over_p_star(:, :, :)
@@ -277,7 +278,9 @@ contains
       if (allocated(error)) return
       if (allocated(solved%stresses)) then
          call solved%stresses%on_plane(points, first, session%scale%depth_angle(depth), body, over_p_star, errors)
-         stress = session%scale%p_star*reshape(over_p_star, shape(stress), order=[2, 3, 1])
+         do i = 1, 6
+            stress(i, :, :) = session%scale%p_star*over_p_star(:, :, i)
+         end do
          if (present(stress_error)) stress_error = session%scale%p_star*errors
       else
          stress = spread(spread(body%stress(no_waves, solved%mean_pressure), 2, points(1)), 3, points(2))

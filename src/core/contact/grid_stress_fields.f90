@@ -21,7 +21,7 @@ module wavycon_grid_stress_fields
       procedure, private :: add_ringing
    end type grid_stress_fields
 
-   !> Less than this is not added: it is what is left one step deep.
+   !> Part of the ringing at the surface that is left one step deep. Deeper it is not added.
    real(dp), parameter :: least_left = 0.18_dp
 
 contains

@@ -170,7 +170,9 @@ contains
 
       integer :: i, k
 
-      matrix = reshape([((merge(1, 2, k == 0)*cos(pi*k*(i - 0.5_dp)/n)/n, k=0, n - 1), i=1, n)], [n, n])
+      do i = 1, n
+         matrix(:, i) = [(merge(1, 2, k == 0)*cos(pi*k*(i - 0.5_dp)/n)/n, k=0, n - 1)]
+      end do
    end function coefficients
 
    !> The values of Chebyshev's polynomials T_0 to T_(n-1).

@@ -48,7 +48,9 @@ contains
       grid%pressure = grid%pressure - level
       cosines = transpose(cosine_table(intervals, n))
       sine = [(sin(pi*k/intervals), k=0, 2*intervals - 1)]
-      sines = reshape([((-i*sine(modulo(i*k, 2*intervals)), i=0, n), k=0, intervals)], shape(sines))
+      do i = 0, n
+         sines(i, :) = [(-i*sine(modulo(i*k, 2*intervals)), k=0, intervals)]
+      end do
       allocate (grid%along(0:n, 0:intervals, 2), grid%across(0:n, 0:intervals, 2))
       grid%along(:, :, 1) = matmul(pressure%c, cosines)
       grid%across(:, :, 1) = matmul(pressure%c, sines)
