@@ -368,6 +368,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       type(solved_load), intent(in), optional :: solved   !! the load; absent: the number is one of the session
 
+      real(dp) :: has_sides
+
       value = 0.0_dp
       call check_ready(self, error, solved)
       if (allocated(error)) return
@@ -377,11 +379,14 @@ contains
                              pack(summary%values(:, 1), summary%columns%kind /= of_words), name, value, error)
          end associate
       else
+         has_sides = 1.0_dp
+         if (allocated(self%results%scene%map)) has_sides = merge(1.0_dp, 0.0_dp, self%results%scene%map%has_sides)
          associate (surface => self%results%solver%surface, units => self%scale)
-            call pick_number([character(9) :: 'e_star', 'p_star', 'amplitude', 'length_x', 'length_y', 'points_x', &
-                              'points_y', 'dimension', 'loads'], [units%e_star, units%p_star, units%amplitude, &
-                             units%sides, real([surface%points/surface%maps_in_cell(), surface%dimension, &
-                                                size(self%results%order)], dp)], name, value, error)
+            call pick_number([character(9) :: 'e_star', 'p_star', 'amplitude', 'length_x', 'length_y', 'has_sides', &
+                              'points_x', 'points_y', 'dimension', 'loads'], &
+                             [units%e_star, units%p_star, units%amplitude, units%sides, has_sides, &
+                              real([surface%points/surface%maps_in_cell(), surface%dimension, &
+                                    size(self%results%order)], dp)], name, value, error)
          end associate
       end if
    end subroutine number

@@ -998,6 +998,13 @@ class Files(PackageTest):
         with self.assertWarnsRegex(wc.Note, "unequal steps"):
             surface = wc.read("profile.txt", edges="mirror")
         self.assertEqual(1, wc.solve(surface, pbar_over_pstar=0.2).dimension)
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()) as notes:
+            convert(["profile.txt", "profile.npy"])
+        self.assertEqual("wavycon-convert: note: profile.txt: this profile has unequal steps and is resampled to equal "
+                         "ones", notes.getvalue().splitlines()[0])
+        numpy.savetxt("holes.txt", numpy.c_[x, numpy.where(numpy.arange(60) == 7, numpy.nan, x)])
+        with self.assertWarnsRegex(wc.Note, "unequal steps"):
+            self.refuse("^holes.txt: . of 60 heights, resampled to equal steps, are missing", wc.read, "holes.txt")
 
     def test_misuse(self):
         (self.folder/"words.txt").write_text("no heights")

@@ -381,6 +381,13 @@ class Values(ValuesTest):
         bare, own = wc.file(file="second.npy", fill_missing="harmonic"), wc.file(file="sides.txt")
         for total in bare + own, own + bare, wc.heights(first, length_x=3, length_y=2, length_unit="um") + bare:
             self.assertEqual((3, 2, "um"), (total.length_x, total.length_y, total.length_unit))
+        alone = wc.file(file="first.npy", length_x=3)
+        for total in bare.flipped() + own, own.flipped() + bare, own + bare.flipped(), alone + bare, bare + alone.flipped():
+            self.assertEqual((3, 2), (total.length_x, total.length_y))
+        self.assertFalse({"length_x", "length_y"} & (bare + bare.flipped()).keys.keys())
+        # The side that is assumed has been used for the cut-off.
+        filtered = wc.file(file="second.npy", fill_missing="harmonic", short_wavelength=0.3).flipped()
+        self.refuse("same length_x, got 3.0 and 1.0", own.__add__, filtered)
         with open("first.gsf", "wb") as file:
             files_of_package.write_gsf(file, first, {"length_x": 3, "length_y": 2}, "m")
         for pair in (wc.read("first.gsf"), wc.heights(first)), (wc.heights(first), wc.read("first.gsf")):
@@ -419,11 +426,17 @@ class Values(ValuesTest):
                              "same edges, got 'periodic' and 'mirror'": wc.heights(h, edges="mirror"),
                              "only maps are": wc.wave_2d()}.items():
             self.refuse(words, one.__add__, other)
+        self.refuse("read.file, length_unit=.... converts a file, heights.factor.h, length_unit=.... an array", one.__add__,
+                    wc.heights(h, length_unit="m"))
         self.refuse("a surface and int cannot be added: wavycon.heights", lambda: one + 1, error=TypeError)
         for add in lambda: one + h, lambda: h + one:
             self.refuse("a surface and ndarray cannot be added: wavycon.heights", add, error=TypeError)
         self.refuse("only maps are", wc.wave_2d().flipped)
         self.refuse("a.gsf: there is no such file", wc.file(file="a.gsf").flipped, error=OSError)
+
+    def test_a_flat_map_is_prepared(self):
+        flat = wc.heights(numpy.add.outer(numpy.arange(6.0), numpy.arange(8.0)), detrend="plane").prepared()
+        self.assertEqual([[0.0]*8]*6, flat.heights.tolist())
 
     def test_no_folder_is_left_to_be_cleaned(self):
         h = numpy.random.default_rng(1).normal(size=(16, 24))

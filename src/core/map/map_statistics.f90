@@ -24,6 +24,7 @@ module wavycon_map_statistics
       real(dp) :: slope_by_differences = 0.0_dp, curvature_by_differences = 0.0_dp
       integer :: spikes = 0                        !! number of spikes, if the map was searched for them
       logical :: lacks_missing_value = .false.     !! whether the deck gives a missing_value that no height has
+      logical :: has_sides = .true.                !! whether the file or the deck gives the sides
       character(:), allocatable :: assumed_sides   !! sides that neither deck nor file gives, in words; empty if none
       character(:), allocatable :: length_unit     !! unit of length that the file names, or the deck in its place
       !> Name of the one of two maps whose file names no unit while the other's does; not allocated if there is none.

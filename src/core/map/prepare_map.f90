@@ -136,7 +136,7 @@ contains
       type(grid_slab) :: slab
       integer(int64) :: holes, points
       integer :: first(2)
-      character(:), allocatable :: remedy
+      character(:), allocatable :: remedy, what
       real(dp) :: unused
 
       slab = map%columns()
@@ -153,8 +153,10 @@ contains
          remedy = "fill_missing = 'harmonic' fills them"
          if (all(first == 1)) remedy = remedy//', crop_missing = .true. cuts off rows and columns at the border '// &
                                        'that have no heights'
+         what = ' heights are missing ('
+         if (map%uneven_steps(2) > 0.0_dp) what = ' heights, resampled to equal steps, are missing ('
          call fatal_error(error, exit_bad_input, escaped(source)//': '//integer_text(holes)//' of '// &
-                          integer_text(points)//' heights are missing ('// &
+                          integer_text(points)//what// &
                           percent(real(holes, dp)/points)//'), the first is number '// &
                           integer_text(first(1))//' along x and '//integer_text(first(2))//' along y: '//remedy)
       end if

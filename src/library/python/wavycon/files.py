@@ -7,6 +7,7 @@ import os
 import re
 import sys
 import tempfile
+import warnings
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import IO, Any, cast
@@ -60,7 +61,10 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
     with tempfile.TemporaryDirectory(prefix="wavycon-") as folder:
         profile = os.path.join(folder, f"{os.path.basename(file)}.txt")
         np.savetxt(profile, np.column_stack([x, z]), fmt="%.17g")
-        return Surface(names.file(file=profile, **keys_of_maps).keys, None, unit).prepared()
+        try:
+            return Surface(names.file(file=profile, **keys_of_maps).keys, None, unit).prepared()
+        except ValueError as error:
+            raise ValueError(str(error).replace(profile, os.fspath(file))) from None
 
 
 def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str | None = None,
@@ -205,7 +209,10 @@ def convert(arguments: list[str] | None = None) -> None:
     given = parser.parse_args(arguments)
     channel = int(given.channel) if given.channel and given.channel.isdecimal() else given.channel
     try:
-        surface = read(given.file, channel, length_unit=given.unit, fill_missing="harmonic")
+        with warnings.catch_warnings(record=True) as notes:
+            warnings.simplefilter("always")
+            surface = read(given.file, channel, length_unit=given.unit, fill_missing="harmonic")
+        sys.stderr.writelines(f"wavycon-convert: note: {note.message}\n" for note in notes)
         rows, unit, kind = surface.heights, surface.length_unit, Path(given.map).suffix
         if rows is None:
             raise ValueError(f"{given.file}: decks read this file as it is")

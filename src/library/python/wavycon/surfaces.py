@@ -58,10 +58,13 @@ class Surface:
             return self
         scene = scene_of(self, {}, keep_fields=False)
         tell(text(scene, "notes").splitlines())
-        table = call("new_table", call("solve", scene, b"mean_pressure", 0.0), b"height")
-        heights = np.empty((int(number(scene, "points_y")), int(number(scene, "points_x"))))
-        call("get_column", table, b"height", heights.size, address(heights))
-        own |= {side: number(scene, side) for side in SIDES[:1 if len(heights) == 1 else 2]}
+        heights = np.zeros((int(number(scene, "points_y")), int(number(scene, "points_x"))))
+        if number(scene, "p_star") > 0:   # otherwise it is flat
+            table = call("new_table", call("solve", scene, b"mean_pressure", 0.0), b"height")
+            call("get_column", table, b"height", heights.size, address(heights))
+        # Sides that are assumed remain where they have a meaning: for cut-offs and radii.
+        if number(scene, "has_sides") or any(key.startswith(("short_", "long_", "form_")) for key in self.keys):
+            own |= {side: number(scene, side) for side in SIDES[:1 if len(heights) == 1 else 2]}
         unit = text(scene, "length_unit").replace("µ", "u")   # of one name, as in read
         return Surface({"kind": "file", "file": "heights", **own}, heights, None if unit == "length" else unit)
 
@@ -96,7 +99,8 @@ class Surface:
             is_near = name in points and (None in (own, others) or 2*points[name]*abs(own - others) <= own)
             if own != others and not is_near:
                 raise ValueError(f"two maps must have the same {name}, got {own!r} and {others!r}"
-                                 + "; read(file, length_unit=...) converts those of a file"*(name == "length_unit"))
+                                 + ("; read(file, length_unit=...) converts a file, heights(factor*h, length_unit=...) "
+                                    "an array")*(name == "length_unit"))
         return Surface({**maps[1].keys, **maps[0].keys}, first + second, maps[0].length_unit)
 
     __radd__ = __add__
