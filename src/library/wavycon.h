@@ -102,8 +102,9 @@ wavycon_solution wavycon_solve_load(wavycon_error error, wavycon_scene scene, in
 
 /* Gets a number by its name.
    Of a scene: "e_star", "p_star" (0 for a flat surface), "amplitude" (the mean gap before load), "length_x",
-   "length_y", "has_sides" (0 for a height map whose sides neither the deck nor its file gives), "points_x", "points_y" (of a height map, otherwise 0), "dimension" (1 for a profile), "loads" (how many
-   the deck has).
+   "length_y", "has_sides" (0 for a height map whose sides neither the deck nor its file gives, otherwise 1),
+   "points_x", "points_y" (of a height map, otherwise 0), "dimension" (1 for a profile), "loads" (how many the deck
+   has).
    Of a solution: the columns of numbers of the summary table, such as "mean_gap". "own_points_x", "own_points_y",
    "own_offset_x" and "own_offset_y" are the grid on which the solution was computed, as arguments of wavycon_get_grid;
    zeros if there is none. With map_ in place of own_ they are the grid of the table "map".

@@ -3,10 +3,10 @@
 
 usage: option_costs.py --program WAVYCON [--points N]
 
-The surface is self-affine, Hurst exponent 0.8, its longest wave 1/8 of the cell, its shortest 16 points; the load is P =
-0.0125, about 5 % in contact, to a residual of 1e-8. Each row is the processor time of the whole program, user and system,
-over that of the load alone; for yield over that of the load that the search finds. The time is the least of three runs,
-for each of three seeds.
+The surface is self-affine, Hurst exponent 0.8, its longest wave 1/8 of the cell, its shortest 16 points; the load is P
+= 0.0125, about 5 % in contact, to a residual of 1e-8. Each row is the processor time of the whole program, user and
+system, over that of the load alone; for yield over that of the load that the search finds. The time is the least of
+three runs, for each of three seeds.
 """
 import argparse
 import pathlib
@@ -37,7 +37,8 @@ CASES = {
     "largest stress": (ONE, "&stress nu = 0.3 /"),
     "section of 128 x 64": (ONE, "&stress nu = 0.3, largest = f, section = 'x', depth_to = 0.1, depth_steps = 64 /\n"
                             "&output line_points = 128 /"),
-    "plane of 128 x 128": (ONE, "&stress nu = 0.3, largest = f, planes = t, depths = 0.01 /\n&output map_points = 128 /"),
+    "plane of 128 x 128": (ONE, "&stress nu = 0.3, largest = f, planes = t, depths = 0.01 /\n"
+                           "&output map_points = 128 /"),
     "interface": (ONE, "&interface resistivity1 = 1, resistivity2 = 1 /"),
     "slip of three loads": (ONE, "&interface friction = 0.5, nu = 0.3, tangential_over_normal = 0.1, 0.2, 0.4 /"),
     "first yield": ("yield = 1", "&stress nu = 0.3, largest = f, yield_stress = 0.1 /"),
