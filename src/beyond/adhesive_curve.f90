@@ -237,11 +237,13 @@ contains
                if ((slope(1) > 0.0_dp) .neqv. point%pools) extreme(which)%kind = kinds(2, which)
                if (extreme(which)%exists .and. (all(is_known(extreme(which)%error)) .or. &
                    (extreme(which)%area - before%area)*(extreme(which)%area - point%area) <= 0.0_dp)) cycle
-               ! Only the areas between which it lies are known. Next to merging, where a slope may have the wrong sign,
-               ! the last step of the search may lead out of them with an unknown error.
+               ! Only the areas between which it lies are known, and these where both slopes are larger than their
+               ! errors. Next to merging, where a slope may have the wrong sign, the last step of the search may lead
+               ! out of the areas with an unknown error.
                extreme(which) = adhesive_point(kind=extreme(which)%kind, pools=point%pools, status=not_found, &
-                                               area=0.5_dp*(before%area + point%area), &
-                                               area_error=0.5_dp*abs(before%area - point%area))
+                                               area=0.5_dp*(before%area + point%area), area_error=unknown)
+               if (all(abs(slope) > [before%slope_error(which), point%slope_error(which)])) &
+                  extreme(which)%area_error = 0.5_dp*abs(before%area - point%area)
             end associate
          end do
          if (all(extreme%kind /= unstable_point)) then
@@ -435,24 +437,31 @@ contains
       real(dp), parameter :: rounding = 4*epsilon(1.0_dp), part_of_error = 0.1_dp, tightening = 0.3_dp, &
          least_tightening = 0.1_dp
       !> `fine`: number of solutions with a smaller accuracy. `other`: area from which the curvature is.
-      integer :: fine, n, other
+      !> `side`: of the bracket.
+      integer :: fine, n, other, side
       logical :: is_extreme   ! whether a slope is to become 0
       !> `area`, `miss`: areas so far, and value(which) less the target there. `bracket`, `next`: the areas between
-      !> which the point lies, and the next area. `changes`, `errors`: those of load and approach, by the next step and
-      !> of the last point. `curvature`, `ends`: the derivative of the slope, and the two areas that it is from.
-      !> `curvature_error`: relative. `solved`: larger error of the last solution, before the step by the derivatives.
+      !> which the point lies, and the next area. `sure`: of an extreme, the last areas on either side of it at which
+      !> the slope is larger than its error; huge where there is none. `changes`, `errors`: those of load and approach,
+      !> by the next step and of the last point. `curvature`, `ends`: the derivative of the slope, and the two areas
+      !> that it is from. `curvature_error`: relative. `solved`: larger error of the last solution, before the step by
+      !> the derivatives.
       real(dp) :: area(most_steps), bracket(2), changes(2), curvature, curvature_error, ends(2), errors(2), &
-         miss(most_steps), next, solved
+         miss(most_steps), next, solved, unsure(2)
       type(adhesive_problem) :: problem
 
       problem = curve%problem
       is_extreme = which > 2
       area(:2) = [first%area, last%area]
       miss(:2) = [first%value(which), last%value(which)] - target
+      unsure = 0.0_dp
+      if (is_extreme) unsure = merge([first%slope_error(which - 2), last%slope_error(which - 2)], 0.0_dp, &
+                                     abs(miss(:2)) <= [first%slope_error(which - 2), last%slope_error(which - 2)])
       ! The end with the larger miss comes first, because interpolation drops the first point first.
       if (abs(miss(1)) < abs(miss(2))) then
          area(:2) = area([2, 1])
          miss(:2) = miss([2, 1])
+         unsure = unsure([2, 1])
       end if
       bracket = area(:2)
       fine = 0
@@ -509,7 +518,11 @@ contains
          if (.not. point%exists) return
          area(n + 1) = next
          miss(n + 1) = point%value(which) - target
-         bracket(merge(1, 2, (miss(n + 1) > 0.0_dp) .eqv. (miss(1) > 0.0_dp))) = next
+         side = merge(1, 2, (miss(n + 1) > 0.0_dp) .eqv. (miss(1) > 0.0_dp))
+         bracket(side) = next
+         if (is_extreme) then
+            unsure(side) = merge(0.0_dp, point%slope_error(which - 2), abs(miss(n + 1)) > point%slope_error(which - 2))
+         end if
       end do
       if (n == most_steps .and. .not. is_extreme) call add_error_of_area()
       point%status = converged
@@ -545,7 +558,7 @@ contains
          step = next - area(n)
          point%area = next
          associate (e => min(left_over() + curvature_error, 1.0_dp - epsilon(step)))
-            point%area_error = min(abs(step)*e/(1.0_dp - e), maxval(abs(bracket - next))) &
+            point%area_error = min(abs(step)*e/(1.0_dp - e), maxval(abs(bracket - next) + abs(unsure/curvature))) &
                                + abs(point%slope_error(which - 2)/curvature)
          end associate
          change = point%value(3:)
