@@ -126,6 +126,8 @@ contains
          self%records%status = -1
          call self%log%start(quiet=.true.)
          call note_scene(scene, self%log)
+         if (scene%interface%work_of_adhesion%is_given) call self%log%note('numbers, fields and stresses of a load '// &
+            'are those without adhesion; the table adhesion has the contacts with it')
          self%scale = scale_of(self%results%solver%surface, scene%e_star)
       end associate
    end subroutine open_session
@@ -246,8 +248,8 @@ contains
       else if (words /= '') then
          call fatal_error(error, exit_bad_input, words)
       else if (any(loads_by == [by_yield, by_percolation]) .and. .not. self%results%keeps_fields) then
-         call fatal_error(error, exit_bad_input, 'loads by yield and by percolation need fields: the session '// &
-                          'was opened without them')
+         call fatal_error(error, exit_bad_input, 'loads by yield and by percolation need fields, and keep_fields '// &
+                          'is not set')
       end if
       if (allocated(error)) return
       allocate (answer%solution)
@@ -350,7 +352,7 @@ contains
       else if (writer%group == 'load' .and. solved%loads_by /= by_percolation) then
          trouble = "it needs a load that percolates finds, such as percolates = 'gap'"
       else if ((writer%group == 'stress' .or. writer%needs_fields) .and. .not. self%results%keeps_fields) then
-         trouble = 'the session was opened without fields'
+         trouble = 'it needs fields, and keep_fields is not set'
       else if (self%scale%p_star <= 0.0_dp .and. writer%needs_surface) then
          trouble = 'the surface is flat'
       else
@@ -422,6 +424,7 @@ contains
 
       integer :: i
       type(run_log) :: logger
+      type(table_type), allocatable :: tables(:)
 
       call check_ready(self, error, solved)
       if (allocated(error)) return
@@ -456,6 +459,15 @@ contains
             allocate (character(12*size(self%results%order)) :: words)
             write (words, '(*(i0, :, 1x))') self%results%order
             words = trim(words)
+         else if (name == 'tables') then
+            call all_tables(tables)
+            words = ''
+            do i = 1, size(tables)
+               if (.not. tables(i)%is_requested(scene) .or. (scene%p_star <= 0.0_dp .and. tables(i)%needs_surface)) cycle
+               if (tables(i)%refusal(self%results%traits, self%results%solver%surface) == '') &
+                  words = words//' '//trim(tables(i)%name())
+            end do
+            words = trim(adjustl(words))
          end if
       end associate
       if (.not. allocated(words)) call fatal_error(error, exit_bad_input, "there is no text '"//name//"'")

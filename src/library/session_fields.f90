@@ -297,7 +297,7 @@ contains
       call check_ready(session, error, solved)
       if (allocated(error)) return
       if (.not. session%results%keeps_fields) then
-         call fatal_error(error, exit_bad_input, 'there are no fields: the session was opened without them')
+         call fatal_error(error, exit_bad_input, 'there are no fields: keep_fields is not set')
       else if (.not. allocated(solved%fields)) then
          call solved%solution%fields(session%results%solver%surface, solved%fields)
       end if

@@ -80,7 +80,7 @@ wavycon_scene wavycon_new_scene(wavycon_error error, const char *deck, const cha
 wavycon_scene wavycon_read_scene(wavycon_error error, const char *path, const char *settings, int keep_fields);
 
 /* A function that the solver calls: with iterations = 0 before each load that it solves, also those of a search, and in
-   each iteration on a grid.
+   each iteration on a grid. Where coarser grids are solved first, iterations begin at 0 on each of them.
    data: the argument of wavycon_set_progress. residual: root mean square of the violated conditions over the mean gap
    before load. If the function returns nonzero the load ends with the status "interrupted", and the scene can solve the
    next load. The function may call the library, but not with this scene. */
@@ -115,7 +115,7 @@ int wavycon_get(wavycon_error error, const void *object, const char *name, doubl
    its null character.
    Of a scene: "solver"; "method" (solver and discretisation in words); "why_chosen" (why 'auto' chose its solvers);
    "pressure_unit"; "length_unit"; "resolved_deck"; "order" (the numbers of the deck's loads, from 1, in the order in
-   which the program solves them).
+   which the program solves them); "tables" (the names of those that the deck asks for).
    Of a solution: "status"; "solver" (of this load, "none" if none was needed).
    Of a table: "columns" (a line name[unit] for each, where a column of words has the unit "word"); "words" (the list of
    words, a line for each).

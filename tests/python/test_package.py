@@ -361,6 +361,27 @@ class Digits(PackageTest):
         none[:0].save("none.npz", fields=False)
         self.assertEqual(0, len(wc.load("none.npz").table()))
 
+    def test_what_the_deck_asks_for_is_saved(self):
+        options = {"pbar_over_pstar": [0.1, 0.2], "output": {"spots": True, "height": True}}
+        results = wc.solve(wc.self_affine(rms_slope=0.1, points=32, short_wavelength=0.125), **options)
+        copied = copy.deepcopy(results)
+        results.save("asked.npz")
+        for one in copied, wc.load("asked.npz"):
+            self.assertEqual(2, len(one.to_dataframe("spots")))
+            self.assertEqual((32, 32), one.surface.heights.shape)
+        wc.solve(wc.wave_2d(), pbar_over_pstar=0.1, keep_fields=False).save("bare.npz")
+        bare = wc.load("bare.npz")
+        self.assertEqual("fitted", bare[0].solver)
+        self.refuse("'fields' was not saved", lambda: bare[0].pressure)
+
+    def test_decks_have_the_names_of_their_files(self):
+        self.assertNotRegex(wc.solve(wc.wave_1d(), pbar_over_pstar=0.1).deck, "case = |directory = ")
+
+    def test_adhesion_is_told(self):
+        with self.assertWarnsRegex(wc.Note, "are those without adhesion; the table adhesion has"):
+            results = wc.solve(wc.wave_1d(), pbar_over_pstar=0.1, interface={"work_of_adhesion": 0.01})
+        self.assertIn("adhesion", results.notes[0])
+
     def test_chosen_results_are_saved_in_their_order(self):
         results = wc.run("rough.nml")
         for chosen in results[::-1], results[[0, 0, 2]], results[1:]:
@@ -783,8 +804,8 @@ except ImportError as error: print(error)"""
         self.assertEqual((2, 3, 6), one.stresses_at(numpy.zeros((2, 1)), 0, [0, 1, 2], 0.3)["stress"].shape)
         self.refuse("points must be", one.fields_at, [], [])
         without = wc.solve(wc.wave_1d(), pbar_over_pstar=0.5, keep_fields=False)[0]
-        self.refuse("without", lambda: without.pressure)
-        self.refuse("without", without.table, "contours")
+        self.refuse("keep_fields is not set", lambda: without.pressure)
+        self.refuse("keep_fields is not set", without.table, "contours")
 
     def test_decks(self):
         self.refuse("there is no such file", wc.run, "none.nml", error=OSError)

@@ -3,7 +3,7 @@
 module wavycon_settings
    use wavycon_deck_text, only: quotes
    use wavycon_key_group, only: key_list
-   use wavycon_key_table, only: is_read, key_index, words_of
+   use wavycon_key_table, only: is_read, key_index, name_length, words_of
    use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, unquoted
    use wavycon_scene_groups, only: scene_group
    use wavycon_scene_group, only: longest_name, name_letters
@@ -43,13 +43,16 @@ contains
 
    !> Whether a setting replaces a key of a deck. A setting replaces three kinds of keys: the same key; keys that give
    !> the same quantity in another way; if the setting selects a kind of surface or a solver, the keys that this kind or
-   !> solver does not read. Misspelt keys of the deck are not replaced, so that they are reported.
+   !> solver does not read. A key that only adds to a way, as layer_nu does to e_star, replaces no other way: the deck
+   !> would lose the quantity. Misspelt keys of the deck are not replaced, so that they are reported.
    pure logical function replaces(setting, table, key)
       type(setting_type), intent(in) :: setting
       type(key_list), intent(in) :: table         !! keys of the group in which the key of the deck stands
       character(*), intent(in) :: key             !! name of the key of the deck
 
-      integer :: k, own
+      integer :: i, k, own
+      logical :: adds   ! whether the key needs one that is not of its quantity
+      character(name_length), allocatable :: needs(:)
 
       replaces = setting%group == table%name .and. key == setting%key
       if (replaces .or. setting%group /= table%name) return
@@ -57,7 +60,13 @@ contains
       k = key_index(table%rows, key)
       if (own == 0 .or. k == 0) return
       associate (keys => table%rows)
-         replaces = keys(own)%way > 0 .and. keys(own)%way/100 == keys(k)%way/100 .and. keys(own)%way /= keys(k)%way
+         needs = words_of(keys(own)%needs)
+         adds = .false.
+         do i = 1, size(needs)
+            adds = adds .or. any(keys%name == needs(i) .and. keys%way == 0)
+         end do
+         replaces = keys(own)%way > 0 .and. keys(own)%way/100 == keys(k)%way/100 .and. &
+                    keys(own)%way /= keys(k)%way .and. .not. adds
          if (setting%key == table%selector) replaces = any(words_of(keys(own)%choices) == plain_value(setting)) &
                                                        .and. .not. is_read(keys(k), plain_value(setting))
       end associate

@@ -520,7 +520,7 @@ contains
             if (.not. accuracy%in_effect) return
          end associate
          better = ''
-         remedy = 'a larger accuracy takes less time'
+         remedy = 'grid_points in place of accuracy may go on, and a larger accuracy takes less time'
          ! Only 'fitted' has details.
          if (results%traits%solver == by_grid) better = solvers_for(results%solver%surface, 'details')
          if (better /= '') remedy = "solver = 'auto' has smaller ones on this surface"

@@ -70,7 +70,7 @@ def groups_of(surface: Surface, options: Mapping[str, Any]) -> dict[str, dict[st
     unit = groups["scene"].setdefault("length_unit", surface.length_unit)
     if surface.length_unit not in (None, unit):
         raise ValueError(f"the lengths of this surface are in {surface.length_unit}, and length_unit={unit!r} would "
-                         "only rename them: leave it out, or give it to the function that made the surface")
+                         "only rename them: leave it out; read(file, length_unit=...) converts lengths")
     return groups
 
 

@@ -86,7 +86,10 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
             return None, reals(np.load(file)), {}, unit
         except ValueError as error:
             raise ValueError(f"{file}: {error}") from None
-    opened, ending = need("SurfaceTopography", "files").open_topography, Path(file).suffix[1:].lower()
+    try:
+        opened, ending = need("SurfaceTopography", "files").open_topography, Path(file).suffix[1:].lower()
+    except ImportError as error:
+        raise ImportError(f"{error}; without it wavycon.file reads texts of numbers") from None
     try:
         with opened(os.fspath(file)) as reader:
             if reader.format() == "hgt" != ending:   # a format that is known by the number of bytes alone

@@ -8,7 +8,7 @@ import json
 import os
 import re
 import zipfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 from typing import IO, TYPE_CHECKING, Any, overload
 
@@ -25,6 +25,8 @@ FIELDS = ("pressure", "gap", "displacement")
 HDF5 = (".h5", ".hdf5")
 # In a file loads have numbers from 1; this is that of the load that has the columns, where there are none.
 MODEL = 0
+# Tables that belong to no load.
+OF_SURFACE = {"spectrum", "height"}
 # The columns that notebooks show.
 SHOWN = ("mean_pressure", "contact_area_fraction", "contact_area_fraction_error", "mean_gap", "mean_gap_error",
          "approach", "approach_error", "peak_pressure", "peak_pressure_error", "status")
@@ -76,6 +78,8 @@ class Facts:
             "str": library.text, "float": library.number, "int": lambda *one: int(library.number(*one))}
         facts = cls(**{one.name: ask[one.type](scene, "resolved_deck" if one.name == "deck" else one.name)
                        for one in dataclasses.fields(cls) if one.type in ask})
+        # The name of the deck's file is that of the case.
+        facts.deck = re.sub(r"(?m)^ +(case = 'deck'|directory = 'outputs/deck') .*\n", "", facts.deck)
         facts.units |= {"pressure": facts.pressure_unit, **dict.fromkeys(("x", "y", *FIELDS[1:]), facts.length_unit)}
         return facts
 
@@ -106,8 +110,16 @@ class Result(Named, Columns[float, str]):
         return (f"Result(load {self.load}: mean_pressure={self.mean_pressure:.6g}, contact_area_fraction="
                 f"{self.contact_area_fraction:.6g}, mean_gap={self.mean_gap:.6g}, status={self.status!r})")
 
+    def _asked_for(self) -> list[str]:
+        return ["summary", *(library.text(self._scene, "tables").split() if self._scene else [])]
+
+    def _make(self, names: Iterable[str]) -> None:
+        for name in names:
+            with contextlib.suppress(ValueError):   # a copy, or without fields
+                self.table(name)
+
     def __getstate__(self) -> dict[str, Any]:
-        self.table("summary")
+        self._make(name for name in self._asked_for() if name not in OF_SURFACE)
         with contextlib.suppress(ValueError):   # without fields
             self._fields
         return {**self.__dict__, "_solution": None, "_scene": None}
@@ -268,8 +280,7 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         """model: a load that has the columns of the tables, where there is none here, and the tables of the surface."""
         super().__init__(**vars(facts))
         for one in loads[:1]:
-            # Tables that belong to no load.
-            one._tables.update({name: model._tables[name] for name in ("spectrum", "height") if name in model._tables})
+            one._tables.update({name: model._tables[name] for name in OF_SURFACE if name in model._tables})
         self._loads, self._facts, self._model = loads, facts, loads[0] if loads else model
 
     def __len__(self) -> int:
@@ -329,8 +340,9 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         return Roughness(self._model)
 
     def __getstate__(self) -> dict[str, Any]:
-        with contextlib.suppress(ValueError):   # a copy itself
-            self._model.table("spectrum")   # for `surface`
+        self._model._make({"spectrum", *self._model._asked_for()} & OF_SURFACE)   # the first one for `surface`
+        for one in self:
+            one.__getstate__()   # all tables, whose units the facts have
         return self.__dict__
 
     def to_dataframe(self, table: str = "summary", units: bool = False) -> Any:
@@ -367,7 +379,8 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
         # Without loads the file has the columns of the model.
         for number, one in [*enumerate(self, 1)] or [(MODEL, self._model)]:
             content |= {f"{number}/{name}": rows for name, rows in one._tables.items()}
-            content |= {f"{number}/fields/{name}": values for name, values in one._fields.items()} if fields else {}
+            content |= {f"{number}/fields/{name}": values for name, values in one.__dict__.get("_fields", {}).items()
+                        if fields}
         if hasattr(file, "write"):
             np.savez(file, **content)
             return
