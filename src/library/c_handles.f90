@@ -101,8 +101,11 @@ contains
       self%error = error
       if (present(object)) self%contents => object_at(object)
       if (present(object_kind)) then
-         if (self%contents%kind /= object_kind) &
+         if (self%contents%kind /= object_kind .and. c_associated(object)) then
+            call fatal_error(self%trouble, exit_bad_input, 'the handle is not one of the kind '//object_kind)
+         else if (self%contents%kind /= object_kind) then
             call fatal_error(self%trouble, exit_bad_input, not_a_handle//object_kind)
+         end if
       end if
       if (present(are_there) .and. .not. allocated(self%trouble)) then
          missing = findloc(are_there, .false., dim=1)

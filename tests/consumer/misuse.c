@@ -170,7 +170,8 @@ static void heights(void)
     /* A map with too few points for error estimates; 64 of them are counted. */
     scene = wavycon_new_scene(error, deck, "d", 0, 8, 8, height);
     solution = wavycon_solve(error, scene, "pbar_over_pstar", 0.1);
-    check(number(scene, "points_x") == 8 && number(scene, "length_y") == 1, "the map", __LINE__);
+    check(number(scene, "points_x") == 8 && number(scene, "length_y") == 1 && number(scene, "has_sides") == 0, "the map",
+          __LINE__);
     check(has_notes(scene, 1, "by differences of neighbours only"), "notes of the surface alone", __LINE__);
     check(has_notes(solution, 1, "the errors of 1 of 1 loads are unknown"), "notes of the load", __LINE__);
     double counted = 64*number(solution, "contact_area_counted_fraction");
@@ -195,6 +196,8 @@ static void loads(wavycon_scene scene, wavycon_solution solution)
     NOTHING(wavycon_solve(error, (wavycon_scene)solution, "pbar_over_pstar", 0.5));
     NOTHING(wavycon_solve_load(error, NULL, 0));
     NOTHING(wavycon_solve_load(error, (wavycon_scene)error, 0));
+    /* The first failure keeps its message beside NULL, not beside another object. */
+    check(has_message("the handle is not one of the kind scene"), "another kind", __LINE__);
     NOTHING(wavycon_solve_load(error, scene, 0));
     REFUSED(wavycon_set_progress(error, NULL, NULL, NULL));
     REFUSED(wavycon_set_progress(error, (wavycon_scene)solution, NULL, NULL));
