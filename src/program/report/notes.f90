@@ -520,9 +520,12 @@ contains
             if (.not. accuracy%in_effect) return
          end associate
          better = ''
-         remedy = 'grid_points in place of accuracy may go on, and a larger accuracy takes less time'
-         ! Only 'fitted' has details.
-         if (results%traits%solver == by_grid) better = solvers_for(results%solver%surface, 'details')
+         remedy = 'a larger accuracy takes less time'
+         if (results%traits%solver == by_grid) then
+            remedy = remedy//', grid_points in its place may give a finer grid'
+            ! Only 'fitted' has details.
+            better = solvers_for(results%solver%surface, 'details')
+         end if
          if (better /= '') remedy = "solver = 'auto' has smaller ones on this surface"
          call note_some(count(worst > 0.0_dp), 'errors are above the accuracy, up to '// &
                         short_number(maxval(worst))//'; '//remedy)
