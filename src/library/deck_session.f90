@@ -463,7 +463,8 @@ contains
             call all_tables(tables)
             words = ''
             do i = 1, size(tables)
-               if (.not. tables(i)%is_requested(scene) .or. (scene%p_star <= 0.0_dp .and. tables(i)%needs_surface)) cycle
+               if (.not. tables(i)%is_requested(scene)) cycle
+               if (scene%p_star <= 0.0_dp .and. tables(i)%needs_surface) cycle
                if (tables(i)%refusal(self%results%traits, self%results%solver%surface) == '') &
                   words = words//' '//trim(tables(i)%name())
             end do
