@@ -253,6 +253,7 @@ contains
       if (values%short_wavelength%is_given) preparation%short_wavelength = values%short_wavelength%number
       if (values%long_wavelength%is_given) preparation%long_wavelength = values%long_wavelength%number
       preparation%filter = values%filter%text
+      preparation%may_crop = .not. values%file2%is_given
    end function preparation_of
 
    !> Finds the sides of the cell: those of the file, or those of the deck, or assumed ones. A side for which the file
