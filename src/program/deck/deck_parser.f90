@@ -47,7 +47,7 @@ module wavycon_deck_parser
       type(word_value) :: value                !! the value of the last word
       logical :: is_read = .false.             !! whether words are read as values; if not they are skipped
       logical :: is_bad = .false.              !! whether a value cannot be used
-      logical :: by_blanks = .false.           !! whether blanks alone separate values of a line
+      logical :: by_blanks = .false.           !! whether blanks, alone or behind a comma, separate values of a line
       logical :: by_decimal_commas = .false.   !! whether commas do that may be meant as decimal points
    end type deck_entry
 
@@ -251,8 +251,8 @@ contains
       if (entry%is_bad) entry%used = 0
       call self%list%take(entry%k, entry%position, entry%numbers(:entry%used), entry%value%text)
       associate (row => self%list%rows(entry%k))
-         ! Decimal commas may be meant if blanks alone separate other numbers; or if the loads would be 0 and another,
-         ! which nobody solves. 0 and 2 may well be depths.
+         ! Decimal commas may be meant if blanks separate other numbers; or if the loads would be 0 and another, which
+         ! nobody solves. 0 and 2 may well be depths.
          are_decimals = entry%by_blanks .or. (self%list%name == 'load' .and. entry%used == 2 .and. &
             all(entry%numbers(:min(1, entry%used)) <= 0.0_dp) .and. &
             index(self%text%content(equals:self%before%last), '.') == 0)
@@ -316,7 +316,8 @@ contains
       integer :: left   ! number of values that the key may still have
 
       word = self%text%content(self%token%first:self%token%last)
-      entry%by_blanks = entry%by_blanks .or. (self%before%kind == is_word .and. &
+      entry%by_blanks = entry%by_blanks .or. (any(self%before%kind == [is_word, is_comma]) .and. &
+         self%before%last + 1 < self%token%first .and. &
          index(self%text%content(self%before%last:self%token%first), newline) == 0)
       associate (key => self%list%rows(entry%k), used => entry%used, most => size(entry%numbers), value => entry%value)
          left = most - used
