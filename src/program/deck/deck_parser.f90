@@ -313,7 +313,8 @@ contains
       type(deck_entry), intent(inout) :: entry
 
       character(:), allocatable :: trouble, word
-      integer :: left   ! number of values that the key may still have
+      integer :: left         ! number of values that the key may still have
+      type(token_type) :: next
 
       word = self%text%content(self%token%first:self%token%last)
       entry%by_blanks = entry%by_blanks .or. (any(self%before%kind == [is_word, is_comma]) .and. &
@@ -323,7 +324,15 @@ contains
          left = most - used
          used = used + 1
          value = word_value()
-         if (left > 0) call read_value(key, word, value, trouble)
+         if (most == 1 .and. left == 1 .and. key%kind == real_value .and. &
+             may_be_decimal(word, self%text%content(self%token%last + 1:self%last))) then
+            next = next_token(self%text%content(:self%last), self%token%last + 2)
+            trouble = trim(key%name)//" takes one value, and '"//self%shown( &
+                      token_type(is_word, self%token%first, next%last))//"' is two: numbers have no comma, and "// &
+                      'decimals have a point, as 0.5'
+         else if (left > 0) then
+            call read_value(key, word, value, trouble)
+         end if
          if (.not. allocated(trouble)) then
             if (value%repeats <= left) then
                entry%numbers(used:used + value%repeats - 1) = value%number
