@@ -62,7 +62,8 @@ contains
    end subroutine check_matrix
 
    !> Makes a map from lines of x, y and z in any order. The height is NaN at points of the grid that have no line. x
-   !> and y of the map rise. Errors: exit_bad_input if the points do not form a regular grid.
+   !> and y of the map rise. Errors: exit_bad_input if the points do not form a regular grid, and if they seem to be
+   !> those of a profile with the numbers of its lines.
    subroutine take_points(table, map, error)
       type(number_table), intent(in) :: table    !! of three columns
       type(measured_map), intent(inout) :: map   !! gets heights and steps
@@ -84,6 +85,11 @@ contains
       k = findloc(any(ieee_is_nan(table%values(:2, :)), dim=1), .true., dim=1)
       if (k > 0) then
          call table%refuse(k, 'x and y must be numbers; a missing height is nan, or its line is left out', error)
+         return
+      end if
+      if (is_numbered_profile(table%values)) then
+         call table%refuse(1, 'the first column seems to number the lines of a profile: leave it out, so that each '// &
+                           'line has x and z', error)
          return
       end if
       axis = [axis_of(table%values(1, :)), axis_of(table%values(2, :))]
@@ -130,6 +136,20 @@ contains
       end subroutine refuse
 
    end subroutine take_points
+
+   !> Whether the first column has the numbers of the lines, from 0 or 1, and the second one rises or falls from line to
+   !> line, as x of a profile does. No two points share a coordinate then, so that they are no map.
+   pure logical function is_numbered_profile(values)
+      real(dp), intent(in) :: values(:, :)   !! of three columns, shape (3, lines)
+
+      integer :: k
+
+      associate (v => values, n => size(values, 2))
+         is_numbered_profile = n > 1 .and. any(abs(v(1, 1) - [0.0_dp, 1.0_dp]) <= 0.0_dp) .and. &
+                               all(abs(v(1, :) - v(1, 1) - [(k, k=0, n - 1)]) <= 0.0_dp) .and. &
+                               (all(v(2, 2:) > v(2, :n - 1)) .or. all(v(2, 2:) < v(2, :n - 1)))
+      end associate
+   end function is_numbered_profile
 
    !> The equidistant coordinates that the points may have. Whether all points are on them is for the caller to check.
    !>

@@ -32,6 +32,7 @@ module wavycon_prepare_map
       real(dp) :: short_wavelength = 0.0_dp    !! short cut-off wavelength [length]; 0: none
       real(dp) :: long_wavelength = 0.0_dp     !! long cut-off wavelength [length]; 0: none
       character(8) :: filter = 'sharp'         !! how waves are cut off: 'sharp', 'gaussian' (M9)
+      logical :: may_crop = .true.             !! whether crop_missing is allowed: not for one of two maps
    end type map_preparation
 
    !> The preparation, and what it changed.
@@ -151,8 +152,8 @@ contains
          if (.not. allocated(map%missing)) allocate (map%missing(slab%points(1), slab%columns()), source=.false.)
          call slab%find_largest(merge(1.0_dp, 0.0_dp, map%missing), unused, first)
          remedy = "fill_missing = 'harmonic' fills them"
-         if (all(first == 1)) remedy = remedy//', crop_missing = .true. cuts off rows and columns at the border '// &
-                                       'that have no heights'
+         if (all(first == 1) .and. preparation%may_crop) remedy = remedy//', crop_missing = .true. cuts off rows '// &
+                                                                  'and columns at the border that have no heights'
          what = ' heights are missing ('
          if (map%uneven_steps(2) > 0.0_dp) what = ' heights, resampled to equal steps, are missing ('
          call fatal_error(error, exit_bad_input, escaped(source)//': '//integer_text(holes)//' of '// &

@@ -47,7 +47,7 @@ module wavycon_deck_parser
       type(word_value) :: value                !! the value of the last word
       logical :: is_read = .false.             !! whether words are read as values; if not they are skipped
       logical :: is_bad = .false.              !! whether a value cannot be used
-      logical :: by_blanks = .false.           !! whether blanks alone separate values of a line
+      logical :: by_blanks = .false.           !! whether blanks, alone or behind a comma, separate values of a line
       logical :: by_decimal_commas = .false.   !! whether commas do that may be meant as decimal points
    end type deck_entry
 
@@ -251,8 +251,8 @@ contains
       if (entry%is_bad) entry%used = 0
       call self%list%take(entry%k, entry%position, entry%numbers(:entry%used), entry%value%text)
       associate (row => self%list%rows(entry%k))
-         ! Decimal commas may be meant if blanks alone separate other numbers; or if the loads would be 0 and another,
-         ! which nobody solves. 0 and 2 may well be depths.
+         ! Decimal commas may be meant if blanks separate other numbers; or if the loads would be 0 and another, which
+         ! nobody solves. 0 and 2 may well be depths.
          are_decimals = entry%by_blanks .or. (self%list%name == 'load' .and. entry%used == 2 .and. &
             all(entry%numbers(:min(1, entry%used)) <= 0.0_dp) .and. &
             index(self%text%content(equals:self%before%last), '.') == 0)
@@ -313,16 +313,26 @@ contains
       type(deck_entry), intent(inout) :: entry
 
       character(:), allocatable :: trouble, word
-      integer :: left   ! number of values that the key may still have
+      integer :: left         ! number of values that the key may still have
+      type(token_type) :: next
 
       word = self%text%content(self%token%first:self%token%last)
-      entry%by_blanks = entry%by_blanks .or. (self%before%kind == is_word .and. &
+      entry%by_blanks = entry%by_blanks .or. (any(self%before%kind == [is_word, is_comma]) .and. &
+         self%before%last + 1 < self%token%first .and. &
          index(self%text%content(self%before%last:self%token%first), newline) == 0)
       associate (key => self%list%rows(entry%k), used => entry%used, most => size(entry%numbers), value => entry%value)
          left = most - used
          used = used + 1
          value = word_value()
-         if (left > 0) call read_value(key, word, value, trouble)
+         if (most == 1 .and. left == 1 .and. key%kind == real_value .and. &
+             may_be_decimal(word, self%text%content(self%token%last + 1:self%last))) then
+            next = next_token(self%text%content(:self%last), self%token%last + 2)
+            trouble = trim(key%name)//" takes one value, and '"//self%shown( &
+                      token_type(is_word, self%token%first, next%last))//"' is two: numbers have no comma, and "// &
+                      'decimals have a point, as 0.5'
+         else if (left > 0) then
+            call read_value(key, word, value, trouble)
+         end if
          if (.not. allocated(trouble)) then
             if (value%repeats <= left) then
                entry%numbers(used:used + value%repeats - 1) = value%number

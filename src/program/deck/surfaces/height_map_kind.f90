@@ -56,7 +56,10 @@ contains
          return
       end if
       map%path = full_path(path)
-      if (values%file2%is_given) then
+      if (.not. values%file2%is_given) then
+         map%farthest = heights%farthest
+         map%number_of_farthest = heights%number_of_farthest
+      else
          if (allocated(heights%length_unit) .and. .not. (allocated(second%length_unit) .or. &
                                                          values%file2_scale%is_given)) map%without_unit = path2
          if (allocated(second%length_unit) .and. .not. (allocated(heights%length_unit) .or. &
@@ -95,6 +98,7 @@ contains
       call read_height_map(path, values%file_format%text, heights, error, missing_value, &
                            in_slabs=values%fill_missing%text == 'none' .and. .not. &
                                     (values%crop_missing%is_true .or. values%despike%is_true))
+      if (.not. allocated(error)) call heights%count_farthest()
       if (.not. allocated(error)) call convert_lengths(path, unit, heights, error)
       if (path_kind(path) == path_absent .and. allocated(error) .and. file(1:1) /= '/') error%message = &
          escaped(file)//': there is no such file beside the deck, nor where the program was started'
@@ -253,6 +257,7 @@ contains
       if (values%short_wavelength%is_given) preparation%short_wavelength = values%short_wavelength%number
       if (values%long_wavelength%is_given) preparation%long_wavelength = values%long_wavelength%number
       preparation%filter = values%filter%text
+      preparation%may_crop = .not. values%file2%is_given
    end function preparation_of
 
    !> Finds the sides of the cell: those of the file, or those of the deck, or assumed ones. A side for which the file
