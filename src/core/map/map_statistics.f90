@@ -23,8 +23,6 @@ module wavycon_map_statistics
       !> Root mean squares of slope and curvature by differences between neighbours, eq. (M25) [-, 1/length].
       real(dp) :: slope_by_differences = 0.0_dp, curvature_by_differences = 0.0_dp
       integer :: spikes = 0                        !! number of spikes, if the map was searched for them
-      real(dp) :: farthest = 0.0_dp                !! components of the same names of measured_map, of one file
-      integer :: number_of_farthest = 0
       logical :: lacks_missing_value = .false.     !! whether the deck gives a missing_value that no height has
       logical :: has_sides = .true.                !! whether the file or the deck gives the sides
       character(:), allocatable :: assumed_sides   !! sides that neither deck nor file gives, in words; empty if none

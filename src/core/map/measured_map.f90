@@ -30,10 +30,8 @@ module wavycon_measured_map
       character(:), allocatable :: length_unit     !! unit of the steps; not allocated if the file does not name units
       character(:), allocatable :: height_unit     !! unit of the heights; allocated if length_unit is
       type(grid_slab) :: slab                      !! if the map is distributed, which columns are the own ones
-      real(dp) :: farthest = 0.0_dp                !! the height of the file that is farthest from the mean
-      integer :: number_of_farthest = 0            !! how many points have exactly this height; 0: not counted
    contains
-      procedure :: set_units, columns, keep_own_columns, count_farthest
+      procedure :: set_units, columns, keep_own_columns
    end type measured_map
 
 contains
@@ -72,21 +70,6 @@ contains
       call move_alloc(own, self%height)
       if (allocated(self%missing)) self%missing = self%missing(:, self%slab%first:self%slab%last)
    end subroutine keep_own_columns
-
-   !> Counts the points of the height that is farthest from the mean: several may have the mark of missing heights. A
-   !> map with missing heights has its mark, and a distributed one is not searched for spikes: these are left out.
-   pure subroutine count_farthest(self)
-      class(measured_map), intent(inout) :: self
-
-      real(dp) :: highest, lowest, mean
-
-      if (allocated(self%missing) .or. self%slab%is_distributed) return
-      lowest = minval(self%height)
-      highest = maxval(self%height)
-      mean = sum(self%height)/size(self%height)
-      self%farthest = merge(lowest, highest, mean - lowest > highest - mean)
-      self%number_of_farthest = count(abs(self%height - self%farthest) <= 0.0_dp)
-   end subroutine count_farthest
 
    !> Checks the number of points. Errors: exit_bad_input for a map that is too small or too large.
    subroutine check_map_size(source, points, error)

@@ -8,7 +8,7 @@ module wavycon_notes
    use wavycon_kinds, only: dp, ieee_is_nan, pi
    use wavycon_map_statistics, only: map_statistics
    use wavycon_methods, only: solvers_for
-   use wavycon_plain_text, only: escaped, exact_number, in_quotes, integer_text, listed, percent, short_number
+   use wavycon_plain_text, only: escaped, in_quotes, integer_text, listed, percent, short_number
    use wavycon_quantities, only: approach, border_load, concentrated_load, contact_area, is_known, last_before, &
       main_quantities, mean_gap, peak_pressure, percolation
    use wavycon_results, only: results_type, status_tables
@@ -147,13 +147,9 @@ contains
       else
          call note_filled(map, '')
       end if
-      remedies = 'Remedy: despike = .true.'
-      if (map%number_of_farthest > 1) remedies = remedies//' Or, if the '//integer_text(map%number_of_farthest)// &
-         ' heights of '//exact_number(map%farthest)//' in the file stand for missing ones: missing_value = '// &
-         exact_number(map%farthest)
       if (map%spikes > 0) call logger%note(integer_text(map%spikes)//' of the heights are far from all '// &
          'around them (kurtosis '//short_number(map%kurtosis)//'): spikes of an instrument carry load that the '// &
-         'surface does not. '//remedies)
+         'surface does not. Remedy: despike = .true.')
       associate (changes => map%changes, height => scene%roughness%height)
          if (height < least_left*hypot(changes%rms_of_short, changes%rms_of_long)) call logger%note( &
             "filter = '"//trim(changes%filter)//"' leaves heights of "//short_number(height)//' ['// &

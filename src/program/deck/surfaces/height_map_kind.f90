@@ -56,10 +56,7 @@ contains
          return
       end if
       map%path = full_path(path)
-      if (.not. values%file2%is_given) then
-         map%farthest = heights%farthest
-         map%number_of_farthest = heights%number_of_farthest
-      else
+      if (values%file2%is_given) then
          if (allocated(heights%length_unit) .and. .not. (allocated(second%length_unit) .or. &
                                                          values%file2_scale%is_given)) map%without_unit = path2
          if (allocated(second%length_unit) .and. .not. (allocated(heights%length_unit) .or. &
@@ -98,7 +95,6 @@ contains
       call read_height_map(path, values%file_format%text, heights, error, missing_value, &
                            in_slabs=values%fill_missing%text == 'none' .and. .not. &
                                     (values%crop_missing%is_true .or. values%despike%is_true))
-      if (.not. allocated(error)) call heights%count_farthest()
       if (.not. allocated(error)) call convert_lengths(path, unit, heights, error)
       if (path_kind(path) == path_absent .and. allocated(error) .and. file(1:1) /= '/') error%message = &
          escaped(file)//': there is no such file beside the deck, nor where the program was started'
