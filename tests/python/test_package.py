@@ -959,6 +959,23 @@ class Files(PackageTest):
         with self.assertRaisesRegex(SystemExit, "points.txt: decks read this file as it is"):
             convert(["points.txt", "map.npy"])
 
+    def test_lines_with_words_are_not_left_out(self):
+        h = numpy.random.default_rng(1).normal(size=(9, 12))
+        for place in (0, 0), (4, 3), (8, 11):
+            for word, number in ("NA", numpy.nan), ("--", numpy.nan), ("0.1x", None):
+                words = [[str(one) for one in row] for row in h]
+                words[place[0]][place[1]] = word
+                pathlib.Path("marks.txt").write_text("\n".join(map(" ".join, words)))
+                if number is None:
+                    self.refuse(f"marks.txt:{place[0] + 1}: '0.1x'", wc.read, "marks.txt")
+                else:
+                    self.assertEqual(h.shape, wc.read("marks.txt", fill_missing="harmonic").prepared().heights.shape)
+        lines = [f"{i} {'NA' if i == 5 else i % 3}" for i in range(12)]
+        pathlib.Path("marks.txt").write_text("x z\n" + "\n".join(lines))
+        self.assertEqual((1, 12), wc.read("marks.txt", fill_missing="harmonic").prepared().heights.shape)
+        numpy.savetxt("map.txt", h)
+        self.refuse("map.txt: missing_value is for files that the program reads", wc.read, "map.txt", missing_value=1)
+
     def test_what_is_no_file_of_an_instrument(self):
         """The program reads tables of numbers, or tells what is wrong."""
         h = numpy.random.default_rng(1).normal(size=(8, 12))
@@ -1011,7 +1028,7 @@ class Files(PackageTest):
         numpy.testing.assert_allclose(both.heights, 2*surface.heights - surface.heights.mean(), atol=1e-14)
         self.refuse("'um' and 'nm'; read.file, length_unit", lambda: wc.read("um.txt") + wc.heights(
             surface.heights, length_unit="nm"))
-        self.refuse("um.txt: 'furlong' is no unit of length", wc.read, "um.txt", length_unit="furlong")
+        self.refuse("um.txt: 'furlong' is no unit to which", wc.read, "um.txt", length_unit="furlong")
 
     def test_unequal_steps(self):
         x = numpy.sort(numpy.random.default_rng(1).uniform(0, 1, 60))

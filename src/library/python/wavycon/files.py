@@ -16,7 +16,7 @@ import numpy as np
 
 from . import names
 from .deck import deck_text, heights, scene_of
-from .library import Array, need, reals, tell
+from .library import Array, Note, need, reals, tell
 from .surfaces import SIDES, Surface, check_names
 
 # Of the files that are written, by the ends of their names.
@@ -27,6 +27,8 @@ GSF_OR_ESRI = re.compile(rb"Gwyddion Simple Field 1\.|\s*(?i:ncols)\s")
 NUMBER = rb"[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?"
 DECIMAL_COMMAS = re.compile(rb"^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n",
                             re.MULTILINE)
+# A number, or a missing one, as SurfaceTopography reads it.
+WORD = re.compile(rb"[-+]?(?:\.?\d[-+.\dEe]*|nan|inf)", re.IGNORECASE)
 # The head of Gwyddion's texts, whose words are those of the user's language.
 GWYDDION_TEXT = re.compile(rb"(?:\xef\xbb\xbf)?(?:# ?[^:\n]+:.*\n){3}")
 
@@ -55,6 +57,9 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
     for key, side in sides.items():
         if keys_of_maps.get(key) is not None:
             raise ValueError(f"{file}: leave out {key}: the file has {side:g} {unit or ''}".rstrip())
+    for key in "missing_value", "file_format", "file2":
+        if key in keys_of_maps:
+            raise ValueError(f"{file}: {key} is for files that the program reads: wavycon.file takes it")
     if x is None:
         return heights(z, length_unit=unit, **cast(names.Map, {**keys_of_maps, **sides}))
     tell([f"{file}: this profile has unequal steps and is resampled to equal ones"])
@@ -84,7 +89,7 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
         # SurfaceTopography takes the first index of an array for x, the program for y.
         try:
             return None, reals(np.load(file)), {}, unit
-        except ValueError as error:
+        except (MemoryError, ValueError) as error:
             raise ValueError(f"{file}: {error}") from None
     try:
         opened, ending = need("SurfaceTopography", "files").open_topography, Path(file).suffix[1:].lower()
@@ -95,12 +100,13 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
             if reader.format() == "hgt" != ending:   # a format that is known by the number of bytes alone
                 return None
             info = choose(reader.channels, channel)
-            known, are_lines = info.physical_sizes is not None, reader.format() == "asc"
+            known, kind = info.physical_sizes is not None, reader.format()
+            are_lines = kind == "asc"
             if are_lines and GWYDDION_TEXT.match(start) and not (known and info.unit):
                 return None   # a head in another language than English, of which the reader knows some lines
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
             if unit and not is_length(unit) and topography.unit:
-                raise NoHeights(f"{unit!r} is no unit of length to which it can be converted, such as m, mm, um, nm")
+                raise NoHeights(f"{unit!r} is no unit to which SurfaceTopography converts lengths, such as m, mm, um, nm")
             topography = topography.to_unit(unit) if unit and topography.unit else topography
             z: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
             # NetCDF tells the order of the axes, of which the reader takes the first one for x.
@@ -117,6 +123,8 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
             if not words:
                 return None
         raise ValueError(f"{file}: SurfaceTopography cannot read it: {' '.join(words[0].split())}") from error
+    if kind in ("asc", "xyz") and is_broken(file, z.shape[1] if are_lines else 2):
+        return None   # its readers leave out lines with words, such as NA, in silence
     if are_lines and not known and z.ndim == 2 and z.shape[1] == 3 and len(z) > 3:
         return None   # lines of points x, y, z with missing ones
     # Of one name, so that length_unit="um" is that of the surface.
@@ -126,6 +134,15 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
 def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
     with open(file, "rb") as opened:
         return opened.read(number)
+
+
+def is_broken(file: str | os.PathLike[str], columns: int) -> bool:
+    """Whether some of the lines of so many words have words that are no numbers beside numbers, or below them."""
+    with open(file, "rb") as opened:
+        lines = [words for line in opened if len(words := line.replace(b",", b" ").split()) == columns
+                 and not words[0].startswith(b"#")]
+    numbers = [sum(map(bool, map(WORD.fullmatch, words))) for words in lines]
+    return columns in numbers and (any(0 < n < columns for n in numbers) or 0 in numbers[numbers.index(columns):])
 
 
 class NoHeights(Exception):
@@ -215,7 +232,8 @@ def convert(arguments: list[str] | None = None) -> None:
         with warnings.catch_warnings(record=True) as notes:
             warnings.simplefilter("always")
             surface = read(given.file, channel, length_unit=given.unit, fill_missing="harmonic")
-        sys.stderr.writelines(f"wavycon-convert: note: {note.message}\n" for note in notes)
+        sys.stderr.writelines(f"wavycon-convert: note: {note.message}\n" for note in notes
+                              if issubclass(note.category, Note))
         rows, unit, kind = surface.heights, surface.length_unit, Path(given.map).suffix
         if rows is None:
             raise ValueError(f"{given.file}: decks read this file as it is")
