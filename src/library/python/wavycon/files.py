@@ -106,7 +106,7 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
                 return None   # a head in another language than English, of which the reader knows some lines
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
             if unit and not is_length(unit) and topography.unit:
-                raise NoHeights(f"{unit!r} is no unit to which SurfaceTopography converts lengths, such as m, mm, um, nm")
+                raise NoHeights(f"{unit!r} is no unit to which SurfaceTopography converts, such as m, mm, um, nm")
             topography = topography.to_unit(unit) if unit and topography.unit else topography
             z: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
             # NetCDF tells the order of the axes, of which the reader takes the first one for x.

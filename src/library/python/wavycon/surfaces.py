@@ -44,8 +44,9 @@ class Surface:
     def __getattr__(self, name: str) -> Any:
         """A key that is given, such as length_x."""
         if name not in (own := self.__dict__.get("keys", ())):
+            remedy = "; prepared() reads its file"*(self.__dict__.get("heights") is None and "file" in own)
             raise AttributeError(f"this surface has no {name!r}; it has {', '.join(('heights', 'length_unit', *own))}"
-                                 + "; prepared() reads its file"*(self.__dict__.get("heights") is None and "file" in own))
+                                 + remedy)
         return own[name]
 
     def prepared(self) -> Surface:
