@@ -441,8 +441,8 @@ contains
       integer :: fine, n, other, side
       logical :: is_extreme   ! whether a slope is to become 0
       !> `area`, `miss`: areas so far, and value(which) less the target there. `bracket`, `next`: the areas between
-      !> which the point lies, and the next area. `sure`: of an extreme, the last areas on either side of it at which
-      !> the slope is larger than its error; huge where there is none. `changes`, `errors`: those of load and approach,
+      !> which the point lies, and the next area. `unsure`: of an extreme, the errors of the slopes at the ends of
+      !> `bracket` that are no smaller than these slopes, otherwise 0. `changes`, `errors`: those of load and approach,
       !> by the next step and of the last point. `curvature`, `ends`: the derivative of the slope, and the two areas
       !> that it is from. `curvature_error`: relative. `solved`: larger error of the last solution, before the step by
       !> the derivatives.
