@@ -242,7 +242,7 @@ contains
                ! out of the areas with an unknown error.
                extreme(which) = adhesive_point(kind=extreme(which)%kind, pools=point%pools, status=not_found, &
                                                area=0.5_dp*(before%area + point%area), area_error=unknown)
-               if (all(abs(slope) > [before%slope_error(which), point%slope_error(which)])) &
+               if (.not. any(doubt(slope, [before%slope_error(which), point%slope_error(which)]) > 0.0_dp)) &
                   extreme(which)%area_error = 0.5_dp*abs(before%area - point%area)
             end associate
          end do
@@ -455,8 +455,7 @@ contains
       area(:2) = [first%area, last%area]
       miss(:2) = [first%value(which), last%value(which)] - target
       unsure = 0.0_dp
-      if (is_extreme) unsure = merge([first%slope_error(which - 2), last%slope_error(which - 2)], 0.0_dp, &
-                                     abs(miss(:2)) <= [first%slope_error(which - 2), last%slope_error(which - 2)])
+      if (is_extreme) unsure = doubt(miss(:2), [first%slope_error(which - 2), last%slope_error(which - 2)])
       ! The end with the larger miss comes first, because interpolation drops the first point first.
       if (abs(miss(1)) < abs(miss(2))) then
          area(:2) = area([2, 1])
@@ -520,9 +519,7 @@ contains
          miss(n + 1) = point%value(which) - target
          side = merge(1, 2, (miss(n + 1) > 0.0_dp) .eqv. (miss(1) > 0.0_dp))
          bracket(side) = next
-         if (is_extreme) then
-            unsure(side) = merge(0.0_dp, point%slope_error(which - 2), abs(miss(n + 1)) > point%slope_error(which - 2))
-         end if
+         if (is_extreme) unsure(side) = doubt(miss(n + 1), point%slope_error(which - 2))
       end do
       if (n == most_steps .and. .not. is_extreme) call add_error_of_area()
       point%status = converged
@@ -585,6 +582,13 @@ contains
       end subroutine step_to_extreme
 
    end subroutine find_zero
+
+   !> The error of a slope that has no sure sign, being no larger than its error; 0 where the slope is larger.
+   elemental real(dp) function doubt(slope, error)
+      real(dp), intent(in) :: slope, error
+
+      doubt = merge(0.0_dp, error, abs(slope) > error)
+   end function doubt
 
    !> The argument at which a function is 0, by inverse interpolation of its values (Neville's algorithm).
    pure real(dp) function interpolated(arguments, values) result(zero)

@@ -62,6 +62,7 @@ module wavycon_c_handles
       type(handle_type), pointer :: made => null()       !! the object that the call makes; null if it makes none
       type(error_type), allocatable :: trouble           !! the error of the call; not allocated: success
       type(c_ptr), private :: error = c_null_ptr         !! handle of the caller's error object
+      logical, private :: has_object = .false.           !! whether the handle that the caller gives is not null
    contains
       procedure :: begins, code, new_object
    end type c_call
@@ -99,13 +100,13 @@ contains
 
       call lock()
       self%error = error
-      if (present(object)) self%contents => object_at(object)
+      if (present(object)) then
+         self%contents => object_at(object)
+         self%has_object = c_associated(object)
+      end if
       if (present(object_kind)) then
-         if (self%contents%kind /= object_kind .and. c_associated(object)) then
-            call fatal_error(self%trouble, exit_bad_input, 'the handle is not one of the kind '//object_kind)
-         else if (self%contents%kind /= object_kind) then
+         if (self%contents%kind /= object_kind) &
             call fatal_error(self%trouble, exit_bad_input, not_a_handle//object_kind)
-         end if
       end if
       if (present(are_there) .and. .not. allocated(self%trouble)) then
          missing = findloc(are_there, .false., dim=1)
@@ -132,7 +133,7 @@ contains
       caller => object_at(self%error)
       if (caller%kind == 'error') then
          is_consequence = code /= exit_fine .and. caller%error%status /= exit_fine
-         if (is_consequence) is_consequence = index(self%trouble%message, not_a_handle) == 1
+         if (is_consequence) is_consequence = index(self%trouble%message, not_a_handle) == 1 .and. .not. self%has_object
          if (.not. is_consequence) then
             caller%error = error_type(code, '')
             if (allocated(self%trouble)) caller%error = self%trouble

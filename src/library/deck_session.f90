@@ -28,7 +28,7 @@ module wavycon_deck_session
    use wavycon_solve_loads, only: find_interface, find_stresses, note_interface, order_loads, solve_target
    use wavycon_stress_fields, only: stress_fields
    use wavycon_table, only: table_type
-   use wavycon_tables, only: all_tables, summary_table
+   use wavycon_tables, only: all_tables, requested_tables, summary_table
    use wavycon_unit_scale, only: scale_of, unit_scale
    implicit none (type, external)
    private
@@ -460,13 +460,10 @@ contains
             write (words, '(*(i0, :, 1x))') self%results%order
             words = trim(words)
          else if (name == 'tables') then
-            call all_tables(tables)
+            call requested_tables(scene, self%results%traits, self%results%solver%surface, tables)
             words = ''
             do i = 1, size(tables)
-               if (.not. tables(i)%is_requested(scene)) cycle
-               if (scene%p_star <= 0.0_dp .and. tables(i)%needs_surface) cycle
-               if (tables(i)%refusal(self%results%traits, self%results%solver%surface) == '') &
-                  words = words//' '//trim(tables(i)%name())
+               words = words//' '//trim(tables(i)%name())
             end do
             words = trim(adjustl(words))
          end if

@@ -197,7 +197,12 @@ static void loads(wavycon_scene scene, wavycon_solution solution)
     NOTHING(wavycon_solve_load(error, NULL, 0));
     NOTHING(wavycon_solve_load(error, (wavycon_scene)error, 0));
     /* The first failure keeps its message beside NULL, not beside another object. */
-    check(has_message("the handle is not one of the kind scene"), "another kind", __LINE__);
+    check(has_message("the handle is NULL or not one of the kind scene"), "another kind", __LINE__);
+    NOTHING(wavycon_get_text(error, scene, "colour", NULL, 0));
+    check(has_message("there is no text 'colour'"), "another text", __LINE__);
+    double value;
+    REFUSED(wavycon_get(error, error, "loads", &value));
+    check(has_message("the handle is NULL or not one of the kind scene"), "another kind of object", __LINE__);
     NOTHING(wavycon_solve_load(error, scene, 0));
     REFUSED(wavycon_set_progress(error, NULL, NULL, NULL));
     REFUSED(wavycon_set_progress(error, (wavycon_scene)solution, NULL, NULL));

@@ -104,6 +104,11 @@ contains
       call check_method_group(scene%method, scene%load, scene%surface)
       call check_interface_group(scene%interface, scene%material, scene%surface, scene%p_star, scene%interface_setting)
       call check_output_group(scene%output, scene%scene_values%case%text, scene%method, scene%surface)
+      if (.not. is_file) then
+         ! A deck in memory has no name: the file that its resolved deck is written to gives one.
+         scene%scene_values%case%in_effect = scene%scene_values%case%is_given
+         scene%output%directory%in_effect = scene%output%directory%is_given
+      end if
       do i = 1, size(lists)
          call problems%join(lists(i)%group%problems)
       end do

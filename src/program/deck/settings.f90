@@ -51,7 +51,7 @@ contains
       character(*), intent(in) :: key             !! name of the key of the deck
 
       integer :: i, k, own
-      logical :: adds   ! whether the key needs one that is not of its quantity
+      logical :: adds   ! whether the key only adds to its way: it needs one of another quantity
       character(name_length), allocatable :: needs(:)
 
       replaces = setting%group == table%name .and. key == setting%key

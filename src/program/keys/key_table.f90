@@ -35,7 +35,8 @@ module wavycon_key_table
       logical :: required = .false.                      !! whether a deck must give the key, or its quantity otherwise
       !> Keys of a group that give the same quantity in different ways have numbers with the same hundreds. Keys with
       !> the same number belong together. Two ways contradict each other, --set of one key replaces those of the other
-      !> ways, and defaults of the ways that are not given have no effect. 0: no other key gives the quantity.
+      !> ways, and defaults of the ways that are not given have no effect. A key that needs one of another quantity only
+      !> adds to its way: --set of it replaces none. 0: no other key gives the quantity.
       integer :: way = 0
       !> What a deck must give beside the key: names of keys of the group, or key='value', with blanks between them.
       !> Without these the default of the key has no effect.

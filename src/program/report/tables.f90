@@ -10,6 +10,7 @@
 !> each load; j = 0 in 1-D.
 module wavycon_tables
    use wavycon_bounds_tables, only: bounds_tables
+   use wavycon_contact_solver, only: solver_traits
    use wavycon_fourier_series, only: fourier_series
    use wavycon_interface_tables, only: interface_tables
    use wavycon_kinds, only: dp
@@ -18,15 +19,17 @@ module wavycon_tables
    use wavycon_output_file, only: output_file
    use wavycon_quantities, only: listed_columns
    use wavycon_results, only: results_type
+   use wavycon_scene, only: scene_type
    use wavycon_spot_tables, only: spot_tables
    use wavycon_stress_tables, only: stress_tables
+   use wavycon_surface, only: surface_type
    use wavycon_surface_tables, only: surface_tables
    use wavycon_table, only: table_type
    use wavycon_theory_tables, only: theory_tables
    implicit none (type, external)
    private
 
-   public :: all_tables, summary_columns, summary_table
+   public :: all_tables, requested_tables, summary_columns, summary_table
 
 contains
 
@@ -56,6 +59,23 @@ contains
       end do
       tables = [tables, of_adhesion]
    end subroutine all_tables
+
+   !> The tables that a scene asks for and that its solver and surface can have. A table with `asked_by` is left out
+   !> silently if they cannot. A table with a key of its own that cannot be written was reported with the deck.
+   subroutine requested_tables(scene, traits, surface, tables)
+      type(scene_type), intent(in) :: scene
+      type(solver_traits), intent(in) :: traits     !! of the solver
+      type(surface_type), intent(in) :: surface
+      type(table_type), allocatable, intent(out) :: tables(:)
+
+      integer :: i
+
+      call all_tables(tables)
+      ! p* and Delta of a flat surface are zero.
+      tables = pack(tables, (scene%p_star > 0.0_dp .or. .not. tables%needs_surface) .and. &
+                    [(tables(i)%is_requested(scene), i=1, size(tables))])
+      tables = pack(tables, [(tables(i)%refusal(traits, surface) == '', i=1, size(tables))])
+   end subroutine requested_tables
 
    !> The tables with the numbers of each load.
    function summary_tables() result(tables)

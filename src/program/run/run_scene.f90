@@ -18,7 +18,7 @@ module wavycon_run_scene
    use wavycon_spot_tables, only: say_percolation
    use wavycon_system, only: full_path, has_memory_for, make_directories
    use wavycon_table, only: table_type
-   use wavycon_tables, only: all_tables
+   use wavycon_tables, only: requested_tables
    use wavycon_work_sharing, only: choose_sharing, distributed_grids
    implicit none (type, external)
    private
@@ -201,21 +201,14 @@ contains
       logical, intent(in), optional :: with_fields
 
       character(:), allocatable :: description
-      integer :: i
       logical :: for_tables   ! whether a table needs fields
 
       call move_alloc(scene, results%scene)
       associate (scene => results%scene)
          for_tables = .false.
          if (present(tables)) then
-            call all_tables(tables)
-            ! p* and Delta of a flat surface are zero.
-            tables = pack(tables, (scene%p_star > 0.0_dp .or. .not. tables%needs_surface) .and. &
-                          [(tables(i)%is_requested(scene), i=1, size(tables))])
-            ! A table with `asked_by` is left out silently if the solver or the surface cannot have it. A table with a
-            ! key of its own that cannot be written was reported with the deck.
             results%traits = traits_of(scene%method%solver%text)
-            tables = pack(tables, [(tables(i)%refusal(results%traits, scene%surface) == '', i=1, size(tables))])
+            call requested_tables(scene, results%traits, scene%surface, tables)
             for_tables = any(tables%needs_fields)
             results%keeps_fields = for_tables .or. asks_for_largest(scene)
          end if

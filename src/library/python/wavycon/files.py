@@ -58,7 +58,7 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
         if keys_of_maps.get(key) is not None:
             raise ValueError(f"{file}: leave out {key}: the file has {side:g} {unit or ''}".rstrip())
     for key in "missing_value", "file_format", "file2":
-        if key in keys_of_maps:
+        if keys_of_maps.get(key) is not None:
             raise ValueError(f"{file}: {key} is for files that the program reads: wavycon.file takes it")
     if x is None:
         return heights(z, length_unit=unit, **cast(names.Map, {**keys_of_maps, **sides}))

@@ -78,8 +78,6 @@ class Facts:
             "str": library.text, "float": library.number, "int": lambda *one: int(library.number(*one))}
         facts = cls(**{one.name: ask[one.type](scene, "resolved_deck" if one.name == "deck" else one.name)
                        for one in dataclasses.fields(cls) if one.type in ask})
-        # The name of the deck's file is that of the case.
-        facts.deck = re.sub(r"(?m)^ +(case = 'deck'|directory = 'outputs/deck') .*\n", "", facts.deck)
         facts.units |= {"pressure": facts.pressure_unit, **dict.fromkeys(("x", "y", *FIELDS[1:]), facts.length_unit)}
         return facts
 
@@ -111,7 +109,7 @@ class Result(Named, Columns[float, str]):
                 f"{self.contact_area_fraction:.6g}, mean_gap={self.mean_gap:.6g}, status={self.status!r})")
 
     def _asked_for(self) -> list[str]:
-        return ["summary", *(library.text(self._scene, "tables").split() if self._scene else [])]
+        return library.text(self._scene, "tables").split() if self._scene else []
 
     def _make(self, names: Iterable[str]) -> None:
         for name in names:

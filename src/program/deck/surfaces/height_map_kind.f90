@@ -148,16 +148,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: assumed_sides
-      logical :: has_sides
       real(dp) :: length(2)
 
-      has_sides = values%length_x%is_given .or. any(heights%step > 0.0_dp)
       call take_sides(values, source, heights, length, assumed_sides, error)
       if (allocated(error)) return
       call surface_of_map(source, preparation_of(values), values%height_scale%number, length, heights, surface, map, &
                           error, radii_of(values%form_radius, values%form_radius_x, values%form_radius_y))
       if (allocated(error)) return
-      map%has_sides = has_sides
+      map%has_sides = values%length_x%is_given .or. any(heights%step > 0.0_dp)
       map%assumed_sides = assumed_sides
    end subroutine make_of
 
@@ -176,7 +174,6 @@ contains
       type(map_preparation) :: preparation, preparation2, preparation_of_sum
       real(dp) :: sides(2, 2)
       integer :: points(2, 2)
-      logical :: has_sides
       type(grid_slab) :: slab
 
       ! A map without sides has those of the other one.
@@ -188,7 +185,6 @@ contains
       points(:, 1) = slab%points
       slab = second%columns()
       points(:, 2) = slab%points
-      has_sides = values%length_x%is_given .or. any(first%step > 0.0_dp)
       call take_sides(values, source, first, sides(:, 1), assumed_sides, error)
       if (.not. allocated(error)) call take_sides(values, source2, second, sides(:, 2), unused, error)
       if (allocated(error)) return
@@ -220,7 +216,7 @@ contains
       call surface_of_map(source//' and '//source2, preparation_of_sum, 1.0_dp, sides(:, 1), first, &
                           surface, map, error, radii_of(values%form_radius, values%form_radius_x, values%form_radius_y))
       if (allocated(error)) return
-      map%has_sides = has_sides
+      map%has_sides = values%length_x%is_given .or. any(first%step > 0.0_dp)
       map%assumed_sides = assumed_sides
       map%changes%map_preparation = preparation
       ! A remedy of the sum's borders is the trend of the map that still has one.
