@@ -41,9 +41,8 @@ contains
       if (self%ringing_left(depth) < least_left) return
       at_surface = nu_terms
       if (depth > 0.0_dp) call self%series_stress_fields%on_line(start, direction, t, 0.0_dp, at_surface, unused)
-      do i = 1, size(t)
-         call self%add_ringing(start + direction*t(i), depth, at_surface(zz, 1, i) - self%pbar_over_pstar, error(i))
-      end do
+      call self%add_ringing(reshape([(start + direction*t(i), i=1, size(t))], [2, size(t)]), depth, &
+                            at_surface(zz, 1, :) - self%pbar_over_pstar, error)
    end subroutine on_line
 
    !> The stresses on a plane, with the ringing in their errors.
@@ -55,36 +54,42 @@ contains
       real(dp), allocatable, intent(out) :: stress(:, :, :), error(:, :)
 
       integer :: k, l
+      real(dp) :: places(2, points(1)), steps(2)
       real(dp), allocatable :: at_surface(:, :, :), unused(:, :)
 
       call self%series_stress_fields%on_plane(points, offset, depth, body, stress, error)
       if (self%ringing_left(depth) < least_left) return
       at_surface = stress
       if (depth > 0.0_dp) call self%series_stress_fields%on_plane(points, offset, 0.0_dp, body, at_surface, unused)
+      steps = 2*pi/(self%maps_in_cell*points)
+      places(1, :) = ([(k, k=1, points(1))] - 1 + offset(1))*steps(1)
       do l = 1, points(2)
-         do k = 1, points(1)
-            call self%add_ringing(2*pi*([k, l] - 1 + offset)/(self%maps_in_cell*points), depth, at_surface(k, l, zz), &
-                                  error(k, l))
-         end do
+         places(2, :) = (l - 1 + offset(2))*steps(2)
+         call self%add_ringing(places, depth, at_surface(:, l, zz), error(:, l))
       end do
    end subroutine on_plane
 
-   !> Adds what is left of the error of the vertical stress at a place on the surface to that of the stresses, (S14).
-   subroutine add_ringing(self, place, depth, vertical, error)
+   !> Adds what is left of the error of the vertical stress at places on the surface to that of the stresses, (S14).
+   subroutine add_ringing(self, places, depth, vertical, error)
       class(grid_stress_fields), intent(inout) :: self
-      real(dp), intent(in) :: place(2)       !! X, Y [rad]
+      real(dp), intent(in) :: places(:, :)   !! X, Y [rad], shape (2, number of places)
       real(dp), intent(in) :: depth          !! Z
-      real(dp), intent(in) :: vertical       !! zz at the surface, with that of the mean pressure [p*]
-      real(dp), intent(inout) :: error       !! [p*]; NaN stays
+      real(dp), intent(in) :: vertical(:)    !! zz at the surface, with that of the mean pressure [p*]
+      real(dp), intent(inout) :: error(:)    !! [p*]; NaN stays
 
-      real(dp) :: displacement, gap, pressure
+      integer :: i
+      real(dp), dimension(size(error)) :: no_shape, pressure, unused, unused_gap
 
-      if (ieee_is_nan(error)) return
-      call self%fields%at(place(1), place(2), pressure, displacement, gap)
-      ! Beyond a map with free edges the fields are those of its mirror images.
-      if (.not. self%repeats .and. any(abs(place(:self%dimension) - 0.5_dp*pi) > 0.5_dp*pi)) pressure = 0.0_dp
-      error = self%pressure_error + &
-              hypot(error - self%pressure_error, self%ringing_left(depth)*(vertical + pressure))
+      ! The shape would enter the displacement alone.
+      no_shape = 0.0_dp
+      call self%fields%at_points(places, no_shape, pressure, unused, unused_gap)
+      do i = 1, size(error)
+         if (ieee_is_nan(error(i))) cycle
+         ! Beyond a map with free edges the fields are those of its mirror images.
+         if (.not. self%repeats .and. any(abs(places(:self%dimension, i) - 0.5_dp*pi) > 0.5_dp*pi)) pressure(i) = 0.0_dp
+         error(i) = self%pressure_error + &
+                    hypot(error(i) - self%pressure_error, self%ringing_left(depth)*(vertical(i) + pressure(i)))
+      end do
    end subroutine add_ringing
 
 end module wavycon_grid_stress_fields

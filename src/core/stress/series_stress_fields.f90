@@ -12,7 +12,7 @@ module wavycon_series_stress_fields
    use wavycon_stress_fields, only: start_point, stress_fields
    use wavycon_stress_kernel, only: nu_terms_of
    use wavycon_stress_tensor, only: elastic_body, no_waves, von_mises, zz
-   use wavycon_stress_tuning, only: coarsest, least_pressure, noise_part, octave_factor, plane_points, plane_ratio, &
+   use wavycon_stress_tuning, only: coarsest, least_depth, least_pressure, noise_part, octave_factor, plane_points, plane_ratio, &
       pressure_part, shallow_planes, shift_of_smooth, steps_in_shift, taylor_order, waves_in_depth, window_depth, &
       window_points
    use wavycon_surface, only: surface_type
@@ -359,6 +359,8 @@ contains
    !>
    !> The first plane is the surface. The next ones, `shallow_planes` of them, lie above the depth of half of the
    !> shortest wavelength, and each is `plane_ratio` times as deep as the plane before. Deeper planes need fewer points.
+   !> Planes no deeper than this half wavelength that lie above the largest stresses below all peaks of a grid's pressure
+   !> are left out, (S16).
    !> If a few windows (squares of 64 x 64 points, README.md) contain all large pressures, the planes close to the
    !> surface are computed within these windows only, which takes less time at light loads. The surface itself is
    !> computed in the whole cell: at an edge of contact the shear stress may be the largest one where the pressure is
@@ -376,9 +378,9 @@ contains
       type(fourier_series) :: series
       type(grid_transform) :: plane
       type(pressure_wave_sums) :: all_waves, waves
-      !> `last`: number of the deepest plane. `shallow`: the planes 0 to this one are those of windows; -1 without
+      !> `top`: number of the first plane below the surface. `last`: number of the deepest plane. `shallow`: the planes 0 to this one are those of windows; -1 without
       !> windows.
-      integer :: block(2), i, last, points(2), shallow
+      integer :: block(2), i, last, points(2), shallow, top
 
       step = least_width(self)
       last = 1 + shallow_planes + ceiling(log(2*pi/step)/log(plane_ratio))
@@ -390,14 +392,23 @@ contains
       ! A quarter of the cell is enough for an even field; with free edges the load is in that quarter.
       region = 1.0_dp
       if (self%waves%pressure%is_even() .or. allocated(self%whole)) region = 0.5_dp
+      call sample_series(all_waves%pressure, points, [0.0_dp, 0.0_dp], pressure, [1, 1])
+      pressure = pressure + self%pbar_over_pstar
+      top = 1
+      if (all_waves%sampled_from < huge(1.0_dp)) then
+         associate (width => least_half_width(pressure, 2*pi*[1.0_dp, self%side_ratio]/points))
+            do while (depth_of(top) <= step .and. depth_of(top + 1) <= least_depth*width)
+               top = top + 1
+            end do
+         end associate
+      end if
       shallow = -1
       if (all(points >= 4*window)) then
-         call sample_series(all_waves%pressure, points, [0.0_dp, 0.0_dp], pressure, [1, 1])
-         pressure = pressure + self%pbar_over_pstar
          highest = highest_in_windows(pressure, min(floor(region*points) + 1, points))
          if (4.0_dp*count(highest >= least_pressure*maxval(highest))*product(window) <= product(real(points, dp))) &
             shallow = 1 + shallow_planes + floor(log(window_depth*window_points)/log(plane_ratio))
       end if
+      if (shallow < top) shallow = -1
       call scan(all_waves, shallow + 1, last, [0, 0], points, 0.0_dp, region)
       if (shallow < 0) return
       call scan(all_waves, 0, 0, [0, 0], points, 0.0_dp, region)
@@ -419,6 +430,14 @@ contains
 
    contains
 
+      !> The depth of a plane [rad].
+      pure real(dp) function depth_of(plane)
+         integer, intent(in) :: plane   !! its number; 0 is the surface
+
+         depth_of = 0.0_dp
+         if (plane > 0) depth_of = step*plane_ratio**(plane - 1 - shallow_planes)
+      end function depth_of
+
       !> Appends to `places` the points of the largest stresses on some of the planes below the cell or below a window.
       subroutine scan(waves, first, last, corner, extent, from, to)
          type(pressure_wave_sums), intent(in) :: waves   !! of the cell's or the window's pressure
@@ -433,8 +452,8 @@ contains
          ! Sides of the window over those of the cell. An angle of the cell over this is the window's angle.
          associate (side => extent/real(points, dp))
             do i = first, last
-               depth = 0.0_dp
-               if (i > 0) depth = step*plane_ratio**(i - 1 - shallow_planes)
+               if (i > 0 .and. i < top) cycle
+               depth = depth_of(i)
                number = points_of(waves, depth/side(1), self%dimension)
                ! The memory is not checked: it was for the series itself, and a plane takes less.
                call waves%scan_plane(self%pbar_over_pstar, number, nint(from*number), &
@@ -449,6 +468,32 @@ contains
       end subroutine scan
 
    end subroutine start_points
+
+   !> The least half width (p/-p'')^(1/2) of the high peaks of a grid's pressure, from second differences, (S16) [rad].
+   pure real(dp) function least_half_width(pressure, steps) result(width)
+      real(dp), intent(in) :: pressure(:, :)   !! at the points of the cell, which repeats
+      real(dp), intent(in) :: steps(2)         !! distances of the points along x and y [rad]
+
+      integer :: i, j
+      real(dp) :: around(2, 2), lowest, sharpness
+
+      associate (m => size(pressure, 1), n => size(pressure, 2))
+         lowest = least_pressure*maxval(pressure)
+         sharpness = 0.0_dp
+         do j = 1, n
+            do i = 1, m
+               associate (p => pressure(i, j))
+                  if (p < lowest) cycle
+                  around(:, 1) = pressure([modulo(i - 2, m) + 1, modulo(i, m) + 1], j)
+                  around(:, 2) = pressure(i, [modulo(j - 2, n) + 1, modulo(j, n) + 1])
+                  if (any(around > p)) cycle
+                  sharpness = max(sharpness, maxval((2*p - sum(around, dim=1))/steps**2)/p)
+               end associate
+            end do
+         end do
+      end associate
+      width = 1.0_dp/sqrt(max(sharpness, tiny(sharpness)))
+   end function least_half_width
 
    !> The largest pressure in the middle part of each window, whose middle parts cover a region without overlap.
    pure function highest_in_windows(pressure, region) result(highest)

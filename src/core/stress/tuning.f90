@@ -24,6 +24,10 @@ module wavycon_stress_tuning
    integer, parameter, public :: shallow_planes = 2
       !! Planes between the surface and the depth of half of the shortest wavelength. Smaller: the stress below a spot
       !! of one or two points is missed. Larger: more planes.
+   real(dp), parameter, public :: least_depth = 0.48_dp
+      !! Planes no deeper than a step of the grid are left out if the next one is less deep than this times the half
+      !! width of the sharpest high peak of the pressure. At .48 radii the stress below a round Hertzian spot is the
+      !! largest (nu = 0.3). Larger: a maximum may lie above the planes. Smaller: more planes.
    real(dp), parameter, public :: waves_in_depth = 9.0_dp
       !! Points of a plane across the cell, times its depth Z. Smaller: maxima fall between the points. Larger: more
       !! expensive planes.
