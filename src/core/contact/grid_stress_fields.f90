@@ -77,14 +77,14 @@ contains
       real(dp), intent(in) :: vertical       !! zz at the surface, with that of the mean pressure [p*]
       real(dp), intent(inout) :: error       !! [p*]; NaN stays
 
-      real(dp) :: displacement, gap, pressure
+      real(dp) :: displacement, gap, of_pressure, pressure
 
       if (ieee_is_nan(error)) return
       call self%fields%at(place(1), place(2), pressure, displacement, gap)
       ! Beyond a map with free edges the fields are those of its mirror images.
       if (.not. self%repeats .and. any(abs(place(:self%dimension) - 0.5_dp*pi) > 0.5_dp*pi)) pressure = 0.0_dp
-      error = self%pressure_error + &
-              hypot(error - self%pressure_error, self%ringing_left(depth)*(vertical + pressure))
+      of_pressure = self%pressure_error_at(depth)
+      error = of_pressure + hypot(error - of_pressure, self%ringing_left(depth)*(vertical + pressure))
    end subroutine add_ringing
 
 end module wavycon_grid_stress_fields
