@@ -103,11 +103,12 @@ contains
       class(contact_solver), intent(inout) :: solver
       !> On entry logit_p and slope are first estimates; on return they are the start of the next level.
       type(root_search), intent(inout) :: search
-      type(contact_solution), intent(out) :: solution   !! the last solution of the search
+      type(contact_solution), intent(out) :: solution   !! the last solution of the search, or the closest one
 
       !> Steps of logit P that are relatively shorter than this are rounding.
       real(dp), parameter :: shortest_step = 1e-13_dp
       real(dp) :: allowed, error, high, last_miss, last_logit_p, lightest, low, miss, next, reached
+      real(dp) :: closest, closest_logit_p   ! least distance from the target so far, and where
       real(dp) :: least_part   ! the lesser of t and 1 - t, in whose fractions tolerances are given
       integer :: i
       logical :: found
@@ -119,15 +120,13 @@ contains
       if (search%is_bounded) least_part = min(search%target, 1.0_dp - search%target)
       last_logit_p = search%logit_p
       last_miss = 0.0_dp
+      closest = huge(closest)
+      closest_logit_p = search%logit_p
       do i = 1, most_solves
-         if (search%most < huge(search%most)) then
-            call solver%solve(search%most/(1.0_dp + exp(-search%logit_p)), solution)
-         else
-            call solver%solve(exp(search%logit_p), solution)
-         end if
+         call solve_here()
          if (solution%status == interrupted) return
-         reached = solution%value(search%quantity)
-         error = solution%error(search%quantity)
+         if (abs(reached - search%target) < closest) closest_logit_p = search%logit_p
+         closest = min(closest, abs(reached - search%target))
          allowed = max(min(max(fraction_of_error*error, least_fraction*least_part), largest_fraction*least_part), &
                        value_roundings*spacing(search%target))
          if (solver%level > 0) allowed = max(allowed, min(error, coarse_fraction*least_part))
@@ -164,6 +163,12 @@ contains
          if (abs(next - search%logit_p) <= shortest_step*max(1.0_dp, abs(next))) exit
          search%logit_p = next
       end do
+      ! The search ends at either side of a jump.
+      if (abs(reached - search%target) > closest + largest_fraction*least_part) then
+         search%logit_p = closest_logit_p
+         call solve_here()
+         if (solution%status == interrupted) return
+      end if
       ! The search found no closer load. The area on a grid jumps as points enter the contact, and the target may lie
       ! within a jump. The solution is good enough if its distance from the target is within a known error estimate. It
       ! is also good enough within the largest tolerance, because rounding of P limits the digits of t: 1 - t of the
@@ -171,6 +176,20 @@ contains
       if (abs(reached - search%target) <= error .and. is_known(error)) return
       if (abs(reached - search%target) <= largest_fraction*least_part) return
       if (solution%is_good()) solution%status = not_accurate
+
+   contains
+
+      !> Solves the load of search%logit_p.
+      subroutine solve_here()
+         if (search%most < huge(search%most)) then
+            call solver%solve(search%most/(1.0_dp + exp(-search%logit_p)), solution)
+         else
+            call solver%solve(exp(search%logit_p), solution)
+         end if
+         reached = solution%value(search%quantity)
+         error = solution%error(search%quantity)
+      end subroutine solve_here
+
    end subroutine find_root
 
    !> The first estimate: logit P = logit t; on a layer the load of full contact or, if it is more, the one in

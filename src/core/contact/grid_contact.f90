@@ -5,6 +5,7 @@
 !> unless the number of points is given, which refers to the cell of the deck.
 module wavycon_grid_contact
    use wavycon_assertion, only: assert
+   use wavycon_contact_measures, only: full_contact_quantities
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, default_accuracy, solver_traits
    use wavycon_contact_tuning, only: border, largest_spot, least_search_points, worst_search_accuracy
@@ -19,8 +20,8 @@ module wavycon_grid_contact
    use wavycon_paper_wave, only: has_smaller_cell, smaller_cell
    use wavycon_quantities, only: approach, area_at_hardness, border_load, concentrated_load, contact_area, &
       elastic_energy, load_at_hardness, mean_gap, min_pressure, peak_pressure, scaled, unknown
-   use wavycon_solution_record, only: by_grid, converged, interrupted, iteration_limit, no_memory, no_solution, &
-      not_accurate, unresolved
+   use wavycon_solution_record, only: by_grid, converged, full_contact, interrupted, iteration_limit, no_memory, &
+      no_solution, not_accurate, unresolved
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -122,20 +123,23 @@ contains
 
       !> Loads that are closer than this to that at which the last gap closes are measured: it is rounded.
       real(dp), parameter :: rounding = 1e-9_dp
-      !> Largest error of the polynomials through fifths of a step over that of a constant, in 1-D and 2-D: (C13b).
+      !> Largest error of the polynomials through fifths of a step of the map over that of a constant, in 1-D and 2-D:
+      !> (C13b).
       real(dp), parameter :: interpolation_error(2) = [1.45e-3_dp, 5.93e-3_dp]
       type(grid_edge) :: edge
       real(dp) :: bend, errors(3), peak
+      real(dp) :: finer   ! longer step of the grid over that of the map
 
       associate (surface => self%surface)
          if (.not. (surface%is_height_map() .and. surface%amplitude > 0.0_dp)) return
-         call full_contact_edge(surface, surface%points/surface%maps_in_cell(), solution%pbar_over_pstar, edge)
+         call full_contact_edge(surface, self%options%points/surface%maps_in_cell(), solution%pbar_over_pstar, edge)
          call grid_peak_pressure(edge, peak, bend, surface)
          solution%value(peak_pressure) = min(peak, surface%hardness)
          errors = 0.0_dp
          if (solution%pbar_over_pstar < self%closes_at + rounding) errors = hidden_gap_errors( &
             surface, edge%slab%points, solution%pbar_over_pstar, open_part=0.0_dp, closes_at=self%closes_at)
-         solution%error(peak_pressure) = max(bend, errors(3), interpolation_error(surface%dimension) &
+         finer = maxval(surface%points(:surface%dimension)/real(self%options%points(:surface%dimension), dp))
+         solution%error(peak_pressure) = max(bend, errors(3), interpolation_error(surface%dimension)*finer**6 &
                                              *0.5_dp*(peak - solution%value(min_pressure)))
          solution%error([mean_gap, approach]) = errors(1)
          solution%error(contact_area) = errors(2)
@@ -152,6 +156,7 @@ contains
 
       type(sequence_answer) :: answer
       type(grid_source), allocatable :: source
+      real(dp) :: least_pressure   ! [p*]
 
       if (allocated(self%smaller)) then
          call solve_cell(self, self%smaller, pbar_over_pstar, answer)
@@ -184,6 +189,13 @@ contains
          solution%status = no_memory
       else if (any(self%options%points == 0)) then
          solution%status = not_accurate
+      else if (is_closed_map(self, solution)) then
+         least_pressure = solution%value(min_pressure)
+         solution%quantities = full_contact_quantities(self%surface, pbar_over_pstar)
+         solution%value(min_pressure) = least_pressure
+         call self%measure_full_contact(solution)
+         solution%status = full_contact
+         return
       else if (all(solution%are_resolved(self%surface))) then
          solution%status = converged
       else
@@ -197,6 +209,20 @@ contains
       call source%take_edge(answer%edge)
       call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
+
+   !> Whether a height map is in contact at all points of a given grid that has all of its waves. Its pressure is then
+   !> the series p_full, as on its own points.
+   logical function is_closed_map(self, solution)
+      class(grid_contact), intent(in) :: self
+      type(contact_solution), intent(in) :: solution   !! after measure_edge
+
+      type(grid_plan) :: plan
+
+      plan = plan_grids(self%surface, self%options%points)
+      is_closed_map = self%surface%is_height_map() .and. .not. self%surface%has_free_edges .and. self%level == 0 .and. &
+                      solution%pbar_over_pstar >= 1.0_dp .and. solution%active_constraints == 0 .and. &
+                      .not. plan%lacks_waves
+   end function is_closed_map
 
    !> Begins or ends a search: allocates or deletes the pressures from which its loads start.
    subroutine set_search(self, begins)

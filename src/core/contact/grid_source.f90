@@ -19,7 +19,7 @@ module wavycon_grid_source
    use wavycon_rotated_series, only: in_other_angles, to_difference_angles
    use wavycon_series_stress_fields, only: start_series_stress_fields
    use wavycon_paper_wave, only: smaller_cell
-   use wavycon_quantities, only: approach, or_nan, peak_pressure, quantities
+   use wavycon_quantities, only: approach, is_known, or_nan, peak_pressure, quantities
    use wavycon_stress_fields, only: stress_fields
    use wavycon_surface, only: surface_type
    use wavycon_system, only: has_memory_for
@@ -137,6 +137,7 @@ contains
       integer(int64), parameter :: numbers_a_point = 10
       integer :: cells   ! cells along x and y of the series: the map alone, or the map and as many zeros
       real(dp) :: error
+      real(dp), allocatable :: of_approach   ! error of the approach [Delta]; if not allocated, the argument is absent
       real(dp), allocatable :: values(:, :)
 
       if (.not. has_memory_for(numbers_a_point*product(int(self%edge%period, int64)))) then
@@ -152,7 +153,11 @@ contains
       ! If all points are in contact at P < 1, there is a gap between the points. In full contact the pressure at this
       ! place would be P - 1, so that the error is at least 1 - P.
       error = self%record%error(peak_pressure)
-      if (all(values > 0.0_dp)) error = max(error, 1.0_dp - self%record%pbar_over_pstar)
+      if (all(values > 0.0_dp)) then
+         error = max(error, 1.0_dp - self%record%pbar_over_pstar)
+      else if (is_known(self%record%error(approach)) .and. .not. surface%kernel%has_layer()) then
+         of_approach = self%record%error(approach)
+      end if
       call transform%start(shape(values), self%edge%even .and. cells == 1, whole=.true.)
       call transform%series(values, pressure)
       deallocate (values)
@@ -161,7 +166,8 @@ contains
       call start_grid_fields(own%fields, surface, self%edge, self%record%value(approach), self%rotated)
       own%repeats = .not. surface%has_free_edges
       call start_series_stress_fields(own%series_stress_fields, surface, pressure, &
-                                      self%record%pbar_over_pstar/cells**2, or_nan(error), is_sampled=.true.)
+                                      self%record%pbar_over_pstar/cells**2, or_nan(error), is_sampled=.true., &
+                                      approach_error=of_approach)
       if (cells > 1) call own%remove_images(point_angle(1, self%edge%slab%points, self%edge%even))
       call move_alloc(own, answer)
    end subroutine stresses

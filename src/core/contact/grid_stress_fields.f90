@@ -78,17 +78,18 @@ contains
       real(dp), intent(inout) :: error(:)    !! [p*]; NaN stays
 
       integer :: i
+      real(dp) :: of_pressure
       real(dp), dimension(size(error)) :: no_shape, pressure, unused, unused_gap
 
       ! The shape would enter the displacement alone.
       no_shape = 0.0_dp
       call self%fields%at_points(places, no_shape, pressure, unused, unused_gap)
+      of_pressure = self%pressure_error_at(depth)
       do i = 1, size(error)
          if (ieee_is_nan(error(i))) cycle
          ! Beyond a map with free edges the fields are those of its mirror images.
          if (.not. self%repeats .and. any(abs(places(:self%dimension, i) - 0.5_dp*pi) > 0.5_dp*pi)) pressure(i) = 0.0_dp
-         error(i) = self%pressure_error + &
-                    hypot(error(i) - self%pressure_error, self%ringing_left(depth)*(vertical(i) + pressure(i)))
+         error(i) = of_pressure + hypot(error(i) - of_pressure, self%ringing_left(depth)*(vertical(i) + pressure(i)))
       end do
    end subroutine add_ringing
 

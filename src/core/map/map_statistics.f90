@@ -23,6 +23,9 @@ module wavycon_map_statistics
       !> Root mean squares of slope and curvature by differences between neighbours, eq. (M25) [-, 1/length].
       real(dp) :: slope_by_differences = 0.0_dp, curvature_by_differences = 0.0_dp
       integer :: spikes = 0                        !! number of spikes, if the map was searched for them
+      !> Number of heights of the file that equal the lowest or highest one, if it seems to stand for a missing height.
+      integer :: placeholders = 0
+      real(dp) :: placeholder = 0.0_dp             !! that height, in the unit of the file
       logical :: lacks_missing_value = .false.     !! whether the deck gives a missing_value that no height has
       logical :: has_sides = .true.                !! whether the file or the deck gives the sides
       character(:), allocatable :: assumed_sides   !! sides that neither deck nor file gives, in words; empty if none

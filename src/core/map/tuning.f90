@@ -24,4 +24,9 @@ module wavycon_map_tuning
    !> kurtosis of Gaussian heights is 3, that of exponential ones 9.
    real(dp), parameter, public :: spiky_kurtosis = 10.0_dp
 
+   !> Numbers that programs often write for a missing height, the last one the least integer of two bytes; and the least
+   !> of the huge ones, such as the largest number of single precision. No surface is so high in any unit of length.
+   real(dp), parameter, public :: placeholders(*) = [-999.0_dp, -9999.0_dp, -99999.0_dp, 9999.0_dp, 99999.0_dp, &
+      -32768.0_dp], least_placeholder = 1e30_dp
+
 end module wavycon_map_tuning

@@ -40,6 +40,8 @@ module wavycon_series_stress_fields
       private
       type(pressure_wave_sums) :: waves              !! the waves of the pressure that (S4) adds up
       real(dp), public :: pressure_error = 0.0_dp    !! error estimate of the pressure [p*]; NaN if there is none
+      real(dp) :: wave_error = huge(1.0_dp)          !! E_e of (S15) [p*^2]; huge if it is unknown
+      real(dp) :: image_error = 0.0_dp               !! with free edges the part of `pressure_error` that images leave
       type(taylor_series), allocatable :: known(:)   !! series made by `expand` so far
       integer :: used = 0                            !! number of the one that `near` takes
       real(dp) :: first(3) = 0.0_dp                  !! X, Y, 0: the surface's position of the series' origin [rad]
@@ -48,20 +50,22 @@ module wavycon_series_stress_fields
       !> With free edges only: the waves of the whole pressure, with its mean.
       type(pressure_wave_sums), allocatable :: whole
    contains
-      procedure :: remove_images, at, expand, near, on_line, on_plane, ringing_left, start_points
+      procedure :: remove_images, at, expand, near, on_line, on_plane, pressure_error_at, ringing_left, start_points
    end type series_stress_fields
 
 contains
 
    !> Prepares the stresses below a pressure that is a Fourier series. Waves that the error of the pressure hides at a
    !> depth are left out there: see `pressure_part`.
-   subroutine start_series_stress_fields(stress, surface, pressure, pbar_over_pstar, pressure_error, is_sampled)
+   subroutine start_series_stress_fields(stress, surface, pressure, pbar_over_pstar, pressure_error, is_sampled, &
+                                         approach_error)
       type(series_stress_fields), intent(out) :: stress
       type(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: pressure    !! p/p* on the cell; its mean is not used
       real(dp), intent(in) :: pbar_over_pstar         !! mean pressure P [p*]
       real(dp), intent(in) :: pressure_error          !! estimate of the pressure's error [p*]; NaN if there is none
       logical, intent(in) :: is_sampled               !! whether the series is the one through values at a grid's points
+      real(dp), intent(in), optional :: approach_error   !! estimate of the approach's error [Delta]; absent if unknown
 
       stress%pbar_over_pstar = pbar_over_pstar
       stress%dimension = surface%dimension
@@ -71,9 +75,21 @@ contains
       call stress%waves%start(pressure, stress%side_ratio, is_sampled)
       call stress%waves%pressure%set_mean(0.0_dp)
       stress%pressure_error = pressure_error
-      if (.not. ieee_is_nan(pressure_error)) &
-         stress%waves%faintest = log(pressure_part/min(max(pressure_error, pressure_part*exp(-deepest)), coarsest))
+      if (present(approach_error)) &
+         stress%wave_error = 2*pbar_over_pstar*approach_error*surface%stiffness/surface%length(1)
+      call leave_out_hidden(stress, 0.0_dp)
    end subroutine start_series_stress_fields
+
+   !> Sets which waves are left out at a depth: those that the error of the pressure hides there.
+   subroutine leave_out_hidden(stress, depth)
+      class(series_stress_fields), intent(inout) :: stress
+      real(dp), intent(in) :: depth   !! Z
+
+      associate (error => stress%pressure_error_at(depth))
+         if (.not. ieee_is_nan(error)) &
+            stress%waves%faintest = log(pressure_part/min(max(error, pressure_part*exp(-deepest)), coarsest))
+      end associate
+   end subroutine leave_out_hidden
 
    !> Removes the stresses of the images from those of a surface with free edges, (S11).
    !>
@@ -104,7 +120,8 @@ contains
          call plant_load_tree(self%load, pressure, first*ratios - (points/4)*step, step, shift)
       end associate
       call self%waves%pressure%multiply(self%load%left_out(self%waves%pressure%frequencies(ratios)))
-      self%pressure_error = self%pressure_error + 120*self%pbar_over_pstar*shift_of_smooth**4
+      self%image_error = 120*self%pbar_over_pstar*shift_of_smooth**4
+      self%pressure_error = self%pressure_error + self%image_error
       self%pbar_over_pstar = 0.0_dp
    end subroutine remove_images
 
@@ -139,6 +156,7 @@ contains
       noise = huge(noise)
       if (self%used > 0) noise = noise_at(distances(self%used))
       if (noise <= noise_part*(reach/width)**2) return
+      call leave_out_hidden(self, place(3))
       self%known = [self%known, taylor_series(centre=place)]
       self%used = size(self%known)
       call self%waves%find_moments(place - self%first, taylor_order, self%known(self%used)%moment)
@@ -245,6 +263,7 @@ contains
       real(dp) :: even(6), n_x, n_y, q_y, q_z, sums(number_of_sums)
       integer :: i, k, l, last(2), m
 
+      call leave_out_hidden(self, depth)
       last = self%waves%last_waves(depth)
       m = dot_product(abs(direction), last)
       allocate (along(number_of_sums, -m:m), source=(0.0_dp, 0.0_dp))
@@ -278,22 +297,45 @@ contains
             end do
          end if
          nu_terms(:, :, i) = nu_terms_of(sums(:8) + smooth_sums(self, [start + direction*t(i), depth]))
-         error(i) = error_of(self, nu_terms(zz, 1, i) - self%pbar_over_pstar, sums(9:))
+         error(i) = error_of(self, depth, nu_terms(zz, 1, i) - self%pbar_over_pstar, sums(9:))
       end do
    end subroutine on_line
 
    !> The error estimate (S5) of a stress component. The vertical stress below a contact without adhesion is never a
    !> tension, so the error of a grid's series is at least the computed vertical tension. The series of full contact,
    !> which may have adhesion, is exact.
-   pure real(dp) function error_of(stress, vertical, octave)
+   pure real(dp) function error_of(stress, depth, vertical, octave)
       class(series_stress_fields), intent(in) :: stress
+      real(dp), intent(in) :: depth       !! Z
       real(dp), intent(in) :: vertical    !! zz, with that of the mean pressure [p*]
       real(dp), intent(in) :: octave(:)   !! S, S_x, S_y [p*]; size 0 if no wave of the last octave reaches the depth
 
-      error_of = stress%pressure_error + octave_factor*norm2(octave)
+      error_of = stress%pressure_error_at(depth) + octave_factor*norm2(octave)
       if (.not. stress%waves%sampled_from < huge(1.0_dp)) return
       if (.not. ieee_is_nan(error_of)) error_of = max(error_of, vertical)
    end function error_of
+
+   !> What is left at a depth of the error of the pressure, (S15) [p*]; NaN if there is no estimate.
+   pure real(dp) function pressure_error_at(self, depth) result(error)
+      class(series_stress_fields), intent(in) :: self
+      real(dp), intent(in) :: depth   !! Z
+
+      !> Z_0 over the longer side, and the two integrals of (S15) with their factors.
+      real(dp), parameter :: last_power = 2.5_dp, of_lines = 2.25_dp, of_planes = 11.0_dp
+      real(dp) :: from, longer, sum_of_waves
+
+      error = self%pressure_error
+      if (ieee_is_nan(error) .or. .not. self%wave_error < huge(1.0_dp)) return
+      ! Above the depth of a step (S15) is larger than the error at the surface.
+      if (depth*self%waves%sampled_from < 1.0_dp) return
+      longer = max(1.0_dp, self%side_ratio)
+      from = depth
+      ! Without images there is no longest wave.
+      if (.not. allocated(self%load)) from = min(depth, last_power*longer)
+      sum_of_waves = of_lines*longer*(1.0_dp/from)**2
+      if (self%dimension == 2) sum_of_waves = sum_of_waves + of_planes*self%side_ratio*(1.0_dp/from)**3
+      error = min(error, self%image_error + sqrt(self%wave_error*sum_of_waves)*depth/from*exp((from - depth)/longer))
+   end function pressure_error_at
 
    !> What is left at a depth, at most, of the ringing of a grid's series at the surface, over this (S14).
    pure real(dp) function ringing_left(self, depth)
@@ -326,6 +368,7 @@ contains
       type(grid_transform) :: plane
       integer :: i, k, l, number
 
+      call leave_out_hidden(self, depth)
       number = merge(9, 6, self%waves%octave_reaches(depth))
       mean = body%stress(no_waves, self%pbar_over_pstar)
       associate (of_cell => self%maps_in_cell*points)
@@ -349,7 +392,7 @@ contains
             stress(k, l, :) = fields(k, l, :6) + mean
             if (allocated(self%load)) stress(k, l, :) = stress(k, l, :) &
                + matmul(nu_terms_of(smooth(:, k, l)), [1.0_dp, body%nu])
-            error(k, l) = error_of(self, stress(k, l, zz), fields(k, l, 7:))
+            error(k, l) = error_of(self, depth, stress(k, l, zz), fields(k, l, 7:))
          end do
       end do
    end subroutine on_plane
@@ -382,6 +425,7 @@ contains
       !> windows.
       integer :: block(2), i, last, points(2), shallow, top
 
+      call leave_out_hidden(self, 0.0_dp)
       step = least_width(self)
       last = 1 + shallow_planes + ceiling(log(2*pi/step)/log(plane_ratio))
       allocate (places(0))

@@ -2,10 +2,10 @@
 module wavycon_height_map
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_grid_slab, only: grid_slab
-   use wavycon_kinds, only: dp, largest_number, smallest_number
+   use wavycon_kinds, only: dp, int64, largest_number, smallest_number
    use wavycon_map_filters, only: find_spikes, leave_out_waves
    use wavycon_map_statistics, only: map_statistics, statistics_of
-   use wavycon_map_tuning, only: spiky_kurtosis
+   use wavycon_map_tuning, only: least_placeholder, placeholders, spiky_kurtosis
    use wavycon_measured_map, only: measured_map
    use wavycon_plain_text, only: escaped, short_number
    use wavycon_prepare_map, only: map_changes, map_preparation, prepare_map, rounding
@@ -36,12 +36,18 @@ contains
 
       type(grid_slab) :: slab
       type(map_changes) :: changes
+      integer(int64) :: of_extreme   ! number of heights that stand for missing ones, as it seems
       logical :: repeats
-      real(dp) :: extremes(2), largest, length(2), mean(1), unfiltered(2)
+      real(dp) :: extreme, extremes(2), largest, length(2), mean(1), unfiltered(2)
 
       slab = map%columns()
       length = sides/slab%points
-      largest = maxval(slab%extremes(map%height))
+      extremes = slab%extremes(map%height)
+      largest = maxval(extremes)
+      extreme = merge(extremes(1), -extremes(2), is_placeholder(extremes(1)))
+      of_extreme = 0
+      if (is_placeholder(extreme)) &
+         of_extreme = slab%total_count(count(.not. abs(map%height - extreme) > 0.0_dp, kind=int64))
       if (largest > largest_number) &
          call fatal_error(error, exit_bad_input, escaped(source)//': heights are up to '//short_number(largest)// &
                           ' in size: they may be up to '//short_number(largest_number))
@@ -90,8 +96,17 @@ contains
       if (present(surface)) surface = surface_of_points(length, map%height, changes%edges == 'mirror', slab%points, &
                                                         changes%edges == 'free', radii)
       statistics%changes = changes
+      if (of_extreme > 1) statistics%placeholder = extreme
+      if (of_extreme > 1) statistics%placeholders = int(of_extreme)
       if (statistics%kurtosis > spiky_kurtosis .and. .not. slab%is_distributed .and. .not. preparation%despike) &
          call find_spikes(map%height, map%missing, statistics%spikes, replace=.false.)
    end subroutine surface_of_map
+
+   !> Whether programs often write a height for a missing one.
+   pure logical function is_placeholder(height)
+      real(dp), intent(in) :: height
+
+      is_placeholder = abs(height) >= least_placeholder .or. any(.not. abs(placeholders - height) > 0.0_dp)
+   end function is_placeholder
 
 end module wavycon_height_map

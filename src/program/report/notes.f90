@@ -8,7 +8,7 @@ module wavycon_notes
    use wavycon_kinds, only: dp, ieee_is_nan, pi
    use wavycon_map_statistics, only: map_statistics
    use wavycon_methods, only: solvers_for
-   use wavycon_plain_text, only: escaped, in_quotes, integer_text, listed, percent, short_number
+   use wavycon_plain_text, only: escaped, exact_number, in_quotes, integer_text, listed, percent, short_number
    use wavycon_quantities, only: approach, border_load, concentrated_load, contact_area, is_known, last_before, &
       main_quantities, mean_gap, peak_pressure, percolation
    use wavycon_results, only: results_type, status_tables
@@ -120,8 +120,8 @@ contains
 
    end subroutine note_scene
 
-   !> Notes what is suspicious in a height map: a missing_value that does not occur, spikes, borders that do not fit
-   !> together, noise, filters that leave almost nothing.
+   !> Notes what is suspicious in a height map: a missing_value that does not occur or is not given, spikes, borders
+   !> that do not fit together, noise, filters that leave almost nothing.
    subroutine note_map(scene, map, logger)
       type(scene_type), intent(in) :: scene
       type(map_statistics), intent(in) :: map   !! statistics of the scene's height map
@@ -147,9 +147,10 @@ contains
       else
          call note_filled(map, '')
       end if
-      if (map%spikes > 0) call logger%note(integer_text(map%spikes)//' of the heights are far from all '// &
-         'around them (kurtosis '//short_number(map%kurtosis)//'): spikes of an instrument carry load that the '// &
-         'surface does not. Remedy: despike = .true.')
+      if (map%spikes > 0 .and. map%placeholders == 0) call logger%note( &
+         integer_text(map%spikes)//' of the heights are far from all around them (kurtosis '// &
+         short_number(map%kurtosis)//'): spikes of an instrument carry load that the surface does not. '// &
+         'Remedy: despike = .true.')
       associate (changes => map%changes, height => scene%roughness%height)
          if (height < least_left*hypot(changes%rms_of_short, changes%rms_of_long)) call logger%note( &
             "filter = '"//trim(changes%filter)//"' leaves heights of "//short_number(height)//' ['// &
@@ -174,7 +175,7 @@ contains
 
    contains
 
-      !> Notes that much of a map was not measured.
+      !> Notes that much of a map was not measured, or seems not to be.
       subroutine note_filled(map, which)
          type(map_statistics), intent(in) :: map
          character(*), intent(in) :: which   !! ' of body 1' or 2; empty if there is one map
@@ -184,6 +185,9 @@ contains
          real(dp) :: filled
 
          filled = real(map%changes%filled, dp)/product(real(map%points, dp))
+         if (map%placeholders > 0) call logger%note( &
+            integer_text(map%placeholders)//' of the heights'//which//' are '//exact_number(map%placeholder)// &
+            ', as is often written for missing ones. Remedy: missing_value = '//exact_number(map%placeholder))
          if (filled > least_filled) call logger%note(percent(filled)//' of the heights'//which//' are missing and '// &
             'filled by a smooth surface, which no instrument has seen: areas, gaps and pressures there are a '// &
             'guess, and error estimates do not count this')
