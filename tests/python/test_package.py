@@ -973,6 +973,13 @@ class Files(PackageTest):
         lines = [f"{i} {'NA' if i == 5 else i % 3}" for i in range(12)]
         pathlib.Path("marks.txt").write_text("x z\n" + "\n".join(lines))
         self.assertEqual((1, 12), wc.read("marks.txt", fill_missing="harmonic").prepared().heights.shape)
+        # An infinite height is wrong, as the program has it; SurfaceTopography takes it for missing.
+        for text, line in (("1 2 3\n4 inf 6\n7 8 9", 2), ("0 1\n1 2\n2 -Infinity", 3), ("inf\n1\n2\n3", 1),
+                           ("0 0 1\n1 0 inf\n0 1 1\n1 1 2", 2)):
+            pathlib.Path("marks.txt").write_text(text + "\n")
+            self.refuse(f"marks.txt:{line}: '.*' is not a height: write nan if it is missing", wc.read, "marks.txt")
+        pathlib.Path("marks.txt").write_text("z\n1\nNA\n2\n3\n")   # one column
+        self.assertEqual((1, 4), wc.read("marks.txt", fill_missing="harmonic").prepared().heights.shape)
         numpy.savetxt("map.txt", h)
         self.refuse("map.txt: missing_value is for files that the program reads", wc.read, "map.txt", missing_value=1)
 
@@ -1004,13 +1011,13 @@ class Files(PackageTest):
         # Numbers are those of the file, and of one name that which has heights is taken.
         self.assertEqual(["Height", "Zsensor", "Zsensor"], [files.choose(mixed, one).name for one in (1, 4, "Zsensor")])
         self.assertIs(mixed[6], files.choose(mixed, "Phase"))
-        heights = "which is no length; channels of heights: 1 'Height', 4 'Zsensor', 6 'Phase'"
+        heights = "which is no length .Gm, .*, fm.; channels of heights: 1 'Height', 4 'Zsensor', 6 'Phase'"
         for wanted, unit in {0: "0 'Phase' is in 'deg'", "Error": "2 'Error' is in 'V'", 5: "5 'Lateral' is in 'px'"}.items():
             self.refuse(f"the channel {unit}, {heights}", files.choose, mixed, wanted, error=files.NoHeights)
         for wanted in 7, "Friction":
             self.refuse(f"no channel {wanted!r}; channels of heights: 1 'Height'", files.choose, mixed, wanted,
                         error=files.NoHeights)
-        self.refuse("the channel 0 'Phase' is in 'deg', which is no length; channels of heights: none", files.choose,
+        self.refuse("the channel 0 'Phase' is in 'deg', which is no length .*; channels of heights: none", files.choose,
                     [phase], None, error=files.NoHeights)
         self.refuse("no channel of heights; channels of heights: none", files.choose, [], None, error=files.NoHeights)
         pathlib.Path("scan.ibw").write_text("of an instrument")
@@ -1028,7 +1035,26 @@ class Files(PackageTest):
         numpy.testing.assert_allclose(both.heights, 2*surface.heights - surface.heights.mean(), atol=1e-14)
         self.refuse("'um' and 'nm'; read.file, length_unit", lambda: wc.read("um.txt") + wc.heights(
             surface.heights, length_unit="nm"))
-        self.refuse("um.txt: 'furlong' is no unit to which", wc.read, "um.txt", length_unit="furlong")
+        self.refuse("um.txt: 'furlong' is no unit to which 'um' is converted: units are .*, m, cm, mm, um", wc.read,
+                    "um.txt", length_unit="furlong")
+        for unit in "\u00b5m", "\u03bcm":   # the micro sign, the Greek letter
+            self.assertEqual("um", wc.read("um.txt", length_unit=unit).length_unit)
+            self.assertEqual(4, wc.solve(surface, pbar_over_pstar=0, length_unit=unit).length_x)
+
+    def test_units_are_those_of_the_program(self):
+        """Those of the file, by SurfaceTopography or the program, and those that a user gives."""
+        with self.assertRaises(ValueError) as raised:
+            (self.folder/"inch.txt").write_text("# Width: 4 inch\n# Height: 3 inch\n# Value units: inch\n1 2 3\n4 5 7\n1 2 3\n")
+            wc.read("inch.txt")
+        known = re.search("one of (.*) and (pm)", str(raised.exception))
+        for unit in [*known[1].split(", "), known[2]]:
+            self.assertIn(surfaces.unit_name(unit), files.LENGTHS)
+            for of_file in unit, "mm":
+                (self.folder/"unit.txt").write_text(f"# Width: 4 {of_file}\n# Height: 3 {of_file}\n# Value units: {of_file}\n"
+                                                    "1 2 3\n4 5 7\n1 2 3\n", encoding="utf-8")
+                one = wc.solve(wc.read("unit.txt", length_unit=unit), pbar_over_pstar=0)
+                factor = 1 if of_file == unit else 10.0**(-3 - files.LENGTHS[surfaces.unit_name(unit)])
+                numpy.testing.assert_allclose((one.length_x, numpy.ptp(one[0].gap)), numpy.array([4, 6])*factor, rtol=1e-12)
 
     def test_unequal_steps(self):
         x = numpy.sort(numpy.random.default_rng(1).uniform(0, 1, 60))
@@ -1066,6 +1092,6 @@ if __name__ == "__main__":
     import numpy
     import pandas
     import wavycon as wc
-    from wavycon import files
+    from wavycon import files, surfaces
     from wavycon.files import convert
     main()

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import names
 from .library import Handle, address, call, keys, reals
-from .surfaces import Surface, check_names, meanings, slips, unknown
+from .surfaces import Surface, check_names, meanings, slips, unit_name, unknown
 
 
 def heights(h: npt.ArrayLike, *, length_unit: str | None = None, **keys_of_maps: names.Unpack[names.Map]) -> Surface:
@@ -68,7 +68,7 @@ def groups_of(surface: Surface, options: Mapping[str, Any]) -> dict[str, dict[st
                          + "; run takes the file of a deck, read one of heights"*isinstance(surface, str))
     groups = {"scene": {}, "surface": surface.keys, "method": {}, **sort_keys(options)}
     unit = groups["scene"].setdefault("length_unit", surface.length_unit)
-    if surface.length_unit not in (None, unit):
+    if surface.length_unit not in (None, unit_name(unit)):
         raise ValueError(f"the lengths of this surface are in {surface.length_unit}, and length_unit={unit!r} would "
                          "only rename them: leave it out; read(file, length_unit=...) converts lengths")
     return groups

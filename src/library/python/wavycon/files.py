@@ -17,7 +17,7 @@ import numpy as np
 from . import names
 from .deck import deck_text, heights, scene_of
 from .library import Array, Note, need, reals, tell
-from .surfaces import SIDES, Surface, check_names
+from .surfaces import SIDES, Surface, check_names, unit_name
 
 # Of the files that are written, by the ends of their names.
 BEGINNINGS = {".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
@@ -27,8 +27,11 @@ GSF_OR_ESRI = re.compile(rb"Gwyddion Simple Field 1\.|\s*(?i:ncols)\s")
 NUMBER = rb"[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?"
 DECIMAL_COMMAS = re.compile(rb"^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n",
                             re.MULTILINE)
-# A number, or a missing one, as SurfaceTopography reads it.
-WORD = re.compile(rb"[-+]?(?:\.?\d[-+.\dEe]*|nan|inf)", re.IGNORECASE)
+# The units of length that are converted, by powers of 10 m.
+LENGTHS = {"Gm": 9, "Mm": 6, "km": 3, "m": 0, "cm": -2, "mm": -3, "um": -6, "nm": -9, "Å": -10, "A": -10, "pm": -12,
+           "fm": -15}
+# A number, or a missing one, as SurfaceTopography and the program read it; inf is missing to the one, wrong to the other.
+WORD = re.compile(rb"[-+]?(?:\.?\d[-+.\dEe]*|nan)", re.IGNORECASE)
 # The head of Gwyddion's texts, whose words are those of the user's language.
 GWYDDION_TEXT = re.compile(rb"(?:\xef\xbb\xbf)?(?:# ?[^:\n]+:.*\n){3}")
 
@@ -105,14 +108,15 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
             if are_lines and GWYDDION_TEXT.match(start) and not (known and info.unit):
                 return None   # a head in another language than English, of which the reader knows some lines
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
-            if unit and not is_length(unit) and topography.unit:
-                raise NoHeights(f"{unit!r} is no unit to which SurfaceTopography converts, such as m, mm, um, nm")
-            topography = topography.to_unit(unit) if unit and topography.unit else topography
-            z: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
+            own, unit = unit_name(topography.unit), unit_name(unit)
+            if unit and own and not {own, unit} <= LENGTHS.keys():
+                raise NoHeights(f"{unit!r} is no unit to which {own!r} is converted: units are {', '.join(LENGTHS)}")
+            factor = float(f"1e{LENGTHS[own] - LENGTHS[unit]}") if unit and own else 1.0
+            z: Array = factor*np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
             # NetCDF tells the order of the axes, of which the reader takes the first one for x.
             z = z.T if getattr(getattr(reader, "_heights_var", None), "dimensions", None) == ("y", "x") else z
-            x = None if topography.is_uniform else np.asarray(topography.positions())
-            sides = map(float, topography.physical_sizes if known else ())
+            x = None if topography.is_uniform else factor*np.asarray(topography.positions())
+            sides = [factor*float(side) for side in (topography.physical_sizes if known else ())]
     except NoHeights as error:
         raise ValueError(f"{file}: {error}") from None
     except Exception as error:
@@ -123,12 +127,11 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
             if not words:
                 return None
         raise ValueError(f"{file}: SurfaceTopography cannot read it: {' '.join(words[0].split())}") from error
-    if kind in ("asc", "xyz") and is_broken(file, z.shape[1] if are_lines else 2):
-        return None   # its readers leave out lines with words, such as NA, in silence
+    if kind in ("asc", "xyz") and is_broken(file, z.ndim + 1 if kind == "xyz" else z[0].size):
+        return None   # its readers leave out lines with words, such as NA, in silence, and take inf for missing
     if are_lines and not known and z.ndim == 2 and z.shape[1] == 3 and len(z) > 3:
         return None   # lines of points x, y, z with missing ones
-    # Of one name, so that length_unit="um" is that of the surface.
-    return x, z, dict(zip(("length_x", "length_y"), sides)), unit or (topography.unit or "").replace("µ", "u") or None
+    return x, z, dict(zip(SIDES, sides)), unit or own or None
 
 
 def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
@@ -137,12 +140,16 @@ def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
 
 
 def is_broken(file: str | os.PathLike[str], columns: int) -> bool:
-    """Whether some of the lines of so many words have words that are no numbers beside numbers, or below them."""
+    """Whether some of the lines of so many words have words that are no numbers beside numbers, or below them, or inf."""
     with open(file, "rb") as opened:
         lines = [words for line in opened if len(words := line.replace(b",", b" ").split()) == columns
                  and not words[0].startswith(b"#")]
     numbers = [sum(map(bool, map(WORD.fullmatch, words))) for words in lines]
-    return columns in numbers and (any(0 < n < columns for n in numbers) or 0 in numbers[numbers.index(columns):])
+    if columns not in numbers:
+        return False
+    first = numbers.index(columns)
+    return (any(0 < n < columns for n in numbers) or 0 in numbers[first:] or
+            any(word.lower().lstrip(b"+-") in (b"inf", b"infinity") for words in lines[:first] for word in words))
 
 
 class NoHeights(Exception):
@@ -159,7 +166,7 @@ def choose(channels: Sequence[Any], channel: str | int | None) -> Any:
         return chosen[0]
     if named:
         words = ", ".join(f"the channel {place} {one.name!r} is in {unit_of(one)!r}" for place, one in named.items())
-        raise NoHeights(f"{words}, which is no length; channels of heights: {there_are}")
+        raise NoHeights(f"{words}, which is no length ({', '.join(LENGTHS)}); channels of heights: {there_are}")
     raise NoHeights(f"there is no channel {'of heights' if channel is None else repr(channel)}; channels of heights: "
                     + there_are)
 
@@ -173,16 +180,8 @@ def unit_of(channel: Any) -> Any:
 
 def has_heights(channel: Any) -> bool:
     """Whether the values of a channel, and its sides, are lengths as far as its file tells."""
-    return all(not unit or is_length(unit) for unit in (unit_of(channel), channel.unit)) and bool(
+    return all(not unit or unit_name(unit) in LENGTHS for unit in (unit_of(channel), channel.unit)) and bool(
         getattr(channel, "is_height_channel", True))
-
-
-def is_length(unit: Any) -> bool:
-    conversion = need("SurfaceTopography.Support.UnitConversion", "files").get_unit_conversion_factor
-    try:
-        return conversion(unit, "m") is not None
-    except (TypeError, ValueError):
-        return False
 
 
 @contextlib.contextmanager

@@ -6,6 +6,7 @@ import dataclasses
 import difflib
 import functools
 import inspect
+import unicodedata
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, ParamSpec
@@ -34,8 +35,11 @@ class Surface:
 
     keys: dict[str, Any]
     heights: npt.NDArray[np.float64] | None = None
-    length_unit: str | None = None
+    length_unit: str | None = None   # with µ as u: of one name
     __array_ufunc__ = None   # array + surface is an error of __radd__, not of each number
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "length_unit", unit_name(self.length_unit))
 
     def __repr__(self) -> str:
         shape = "" if self.heights is None else f"array of shape {self.heights.shape}, "
@@ -67,7 +71,7 @@ class Surface:
         # Sides that are assumed remain where they have a meaning: for cut-offs and radii.
         if number(scene, "has_sides") or any(key.startswith(("short_", "long_", "form_")) for key in self.keys):
             own |= {side: number(scene, side) for side in SIDES[:1 if len(heights) == 1 else 2]}
-        unit = text(scene, "length_unit").replace("µ", "u")   # of one name, as in read
+        unit = text(scene, "length_unit")
         return Surface({"kind": "file", "file": "heights", **own}, heights, None if unit == "length" else unit)
 
     def flipped(self) -> Surface:
@@ -118,6 +122,11 @@ def maker(function: Callable[Parameters, Surface]) -> Callable[Parameters, Surfa
         return Surface({**function(*none, **given).keys, **{key: one for key, one in given.items() if one is not None}})
 
     return make
+
+
+def unit_name(unit: Any) -> Any:
+    """The one name of a unit that has several: µ, the sign and the Greek letter, is u; the angstrom is a letter."""
+    return unicodedata.normalize("NFKC", unit).replace("\u03bc", "u") if isinstance(unit, str) else unit
 
 
 def check_names(function: str, given: Iterable[str], known: Iterable[str]) -> None:
