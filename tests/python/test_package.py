@@ -292,6 +292,12 @@ class Digits(PackageTest):
             factor = {"m": 1, "um": 1e6}[results.length_unit]
             self.assertAlmostEqual(4e-6*factor, results.length_x, delta=1e-12*factor)
             numpy.testing.assert_allclose(results[0].gap, gap*factor, atol=4e-7*factor*numpy.abs(h).max())
+        # Heights of a file that the program reads are those that it solves; its deck still names the file.
+        surface = wc.read("map.gsf", length_unit="um", detrend="plane")
+        numpy.testing.assert_allclose(surface.heights, surface.prepared().heights, rtol=0)
+        numpy.testing.assert_allclose(wc.file(file="map.gsf").heights, h - h.mean(), atol=2e-7)
+        self.assertIn("map.gsf", wc.solve(surface, pbar_over_pstar=0).deck)
+        self.refuse("results.surface has the heights of others", lambda: wc.wave_2d().heights)
         self.refuse("no channel 'Height'", wc.read, "map.gsf", "Height")
         for name in "empty.gsf", "empty.npy", "empty.txt":
             pathlib.Path(name).touch()

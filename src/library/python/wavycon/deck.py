@@ -76,7 +76,7 @@ def groups_of(surface: Surface, options: Mapping[str, Any]) -> dict[str, dict[st
 
 def scene_of(surface: Surface, options: Mapping[str, Any], keep_fields: bool) -> Handle:
     """The scene of a surface and of options as of solve."""
-    deck, h = deck_text(groups_of(surface, options)).encode(), surface.heights
+    deck, h = deck_text(groups_of(surface, options)).encode(), surface.in_memory
     rows, columns = (0, 0) if h is None else h.shape
     scene: Handle = call("new_scene", deck, b"wavycon.solve", bool(keep_fields), columns, rows,
                          None if h is None else address(h))

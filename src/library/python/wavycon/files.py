@@ -30,7 +30,8 @@ DECIMAL_COMMAS = re.compile(rb"^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + N
 # The units of length that are converted, by powers of 10 m.
 LENGTHS = {"Gm": 9, "Mm": 6, "km": 3, "m": 0, "cm": -2, "mm": -3, "um": -6, "nm": -9, "Å": -10, "A": -10, "pm": -12,
            "fm": -15}
-# A number, or a missing one, as SurfaceTopography and the program read it; inf is missing to the one, wrong to the other.
+# A number, or a missing one, as SurfaceTopography and the program read it; inf is missing to the one, wrong to the
+# other.
 WORD = re.compile(rb"[-+]?(?:\.?\d[-+.\dEe]*|nan)", re.IGNORECASE)
 # The head of Gwyddion's texts, whose words are those of the user's language.
 GWYDDION_TEXT = re.compile(rb"(?:\xef\xbb\xbf)?(?:# ?[^:\n]+:.*\n){3}")
@@ -140,7 +141,7 @@ def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
 
 
 def is_broken(file: str | os.PathLike[str], columns: int) -> bool:
-    """Whether some of the lines of so many words have words that are no numbers beside numbers, or below them, or inf."""
+    """Whether some of the lines of so many words have inf, or words that are no numbers beside or below numbers."""
     with open(file, "rb") as opened:
         lines = [words for line in opened if len(words := line.replace(b",", b" ").split()) == columns
                  and not words[0].startswith(b"#")]
@@ -233,7 +234,7 @@ def convert(arguments: list[str] | None = None) -> None:
             surface = read(given.file, channel, length_unit=given.unit, fill_missing="harmonic")
         sys.stderr.writelines(f"wavycon-convert: note: {note.message}\n" for note in notes
                               if issubclass(note.category, Note))
-        rows, unit, kind = surface.heights, surface.length_unit, Path(given.map).suffix
+        rows, unit, kind = surface.in_memory, surface.length_unit, Path(given.map).suffix
         if rows is None:
             raise ValueError(f"{given.file}: decks read this file as it is")
         sides = {key: surface.keys[key] for key in SIDES if key in surface.keys}
