@@ -20,6 +20,7 @@ import pickle
 import re
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -81,6 +82,10 @@ with ThreadPoolExecutor(4) as pool:
 """
 # Seconds after which a process counts as hanging.
 HANGING = 60
+# A picture of 1 x 1 points: a directory of entries (tag, type, number, value), and the value of a point.
+TIFF = b"II*\0" + struct.pack("<IH", 8, 8) + b"".join(
+    struct.pack("<HHII", tag, 4, 1, value) for tag, value in
+    {256: 1, 257: 1, 258: 8, 259: 1, 262: 1, 273: 110, 278: 1, 279: 1}.items()) + bytes(5)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -998,9 +1003,15 @@ class Files(PackageTest):
         pathlib.Path("number.json").write_text('{"a": 1}')   # of 8 bytes, as a tile of 2 x 2 heights, .hgt
         pathlib.Path("grey.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(60))
         pathlib.Path("cut.opd").write_bytes(b"\1\0Directory" + bytes(9))
+        pathlib.Path("cut.al3d").write_bytes(b"AliconaImaging\0\r\nVersion".ljust(50, b"\0"))   # of a tile's size too
+        pathlib.Path("link.al3d").write_text("version https://git-lfs\n")   # in place of the file
+        pathlib.Path("grey.tif").write_bytes(TIFF)
         (self.folder/"folder.opd").mkdir()
         for name, words in {"ragged.txt": "2: this row has 2 numbers, the first has 3", "number.json": " there are no",
                             "grey.png": " by its name this is a picture", "folder.opd": " this is no file",
+                            "grey.tif": " by its name this is a picture, which has no scale .* to wavycon.heights",
+                            "cut.al3d": " SurfaceTopography cannot read it: AL3DReader: .*truncated",
+                            "link.al3d": " SurfaceTopography cannot read it: AL3DReader: .*magic",
                             "cut.opd": " SurfaceTopography cannot read it: OPDReader: .*truncated"}.items():
             self.refuse(f"{name}:{words}", wc.read, name, error=(ValueError, OSError))
             with self.assertRaisesRegex(SystemExit, f"{name}:{words}"):

@@ -55,7 +55,13 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
         if channel not in (None, 0):
             raise ValueError(f"there is no channel {channel!r}: such a file has one, which has no name")
         surface = Surface(names.file(file=os.path.abspath(file), **keys_of_maps).keys, None, length_unit)
-        scene_of(surface, {}, keep_fields=False)   # an error if the program cannot read it
+        try:
+            scene_of(surface, {}, keep_fields=False)   # an error if the program cannot read it
+        except ValueError as error:
+            # It sends files of instruments back to this package.
+            if "wavycon-convert" not in str(error) or not (words := refusal(file)):
+                raise
+            raise ValueError(f"{file}: SurfaceTopography cannot read it: {words}") from None
         return surface
     x, z, sides, unit = opened
     for key, side in sides.items():
@@ -96,16 +102,16 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
         except (MemoryError, ValueError) as error:
             raise ValueError(f"{file}: {error}") from None
     try:
-        opened, ending = need("SurfaceTopography", "files").open_topography, Path(file).suffix[1:].lower()
+        opened = need("SurfaceTopography", "files").open_topography
     except ImportError as error:
         raise ImportError(f"{error}; without it wavycon.file reads texts of numbers") from None
     try:
         with opened(os.fspath(file)) as reader:
-            if reader.format() == "hgt" != ending:   # a format that is known by the number of bytes alone
+            # The number of bytes alone makes the one format, a name the other: of pictures that it does not know.
+            if (kind := reader.format()) == "hgt" != ending_of(file) or not reader.channels:
                 return None
             info = choose(reader.channels, channel)
-            known, kind = info.physical_sizes is not None, reader.format()
-            are_lines = kind == "asc"
+            known, are_lines = info.physical_sizes is not None, kind == "asc"
             if are_lines and GWYDDION_TEXT.match(start) and not (known and info.unit):
                 return None   # a head in another language than English, of which the reader knows some lines
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
@@ -121,18 +127,34 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
     except NoHeights as error:
         raise ValueError(f"{file}: {error}") from None
     except Exception as error:
-        # Its readers raise whatever their formats bring about. Where none knows the file, one may have its ending.
-        words = f"{type(error).__name__}: {str(error).strip()}".splitlines()[:1]
-        if words[0].startswith("CannotDetectFileFormat"):
-            words = re.findall(rf"(?i)tried ({re.escape(ending)}reader: *\n.*)", str(error))
-            if not words:
-                return None
-        raise ValueError(f"{file}: SurfaceTopography cannot read it: {' '.join(words[0].split())}") from error
+        # Its readers raise whatever their formats bring about.
+        if type(error).__name__ == "CannotDetectFileFormat":
+            return None
+        raise ValueError(f"{file}: SurfaceTopography cannot read it: {in_line(type(error), error)}") from error
     if kind in ("asc", "xyz") and is_broken(file, z.ndim + 1 if kind == "xyz" else z[0].size):
         return None   # its readers leave out lines with words, such as NA, in silence, and take inf for missing
     if are_lines and not known and z.ndim == 2 and z.shape[1] == 3 and len(z) > 3:
         return None   # lines of points x, y, z with missing ones
     return x, z, dict(zip(SIDES, sides)), unit or own or None
+
+
+def ending_of(file: str | os.PathLike[str]) -> str:
+    return Path(file).suffix[1:].lower()
+
+
+def in_line(kind: type[Any], error: Exception) -> str:
+    return " ".join(f"{kind.__name__}: {str(error).strip()}".splitlines()[0].split())
+
+
+def refusal(file: str | os.PathLike[str]) -> str | None:
+    """What the reader of SurfaceTopography for the ending of a file says of it; None without such a reader."""
+    for reader in need("SurfaceTopography.IO", "files").readers:
+        if ending_of(file) in (reader.format(), *reader.file_extensions()):
+            try:
+                reader(os.fspath(file))
+            except Exception as error:
+                return in_line(reader, error)
+    return None
 
 
 def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
