@@ -434,6 +434,15 @@ class Digits(PackageTest):
         self.assertIs(given, results.plot(ax=given))
         self.assertEqual("mean pressure [p*]", given.get_xlabel())
         self.assertEqual("y [length]", results[1].plot_map("gap").get_ylabel())
+        # A colour bar is as high as its map, and beside it.
+        for points in (8, 64), (64, 8):
+            h = numpy.random.default_rng(1).normal(size=points)
+            ax = wc.solve(wc.heights(h, length_x=points[1]), pbar_over_pstar=0.1)[0].plot_map("gap")
+            ax.figure.draw_without_rendering()
+            drawn, bar = ax.get_window_extent(), ax.collections[0].colorbar.ax.get_window_extent()
+            numpy.testing.assert_allclose((bar.y0, bar.y1), (drawn.y0, drawn.y1))
+            self.assertLess(0.1*bar.width, bar.x0 - drawn.x1)
+            self.assertLess(bar.x0 - drawn.x1, 0.1*max(drawn.width, drawn.height))
         self.assertEqual("depth [length]", results[1].plot_stress_section().get_ylabel())
         self.assertEqual(1, len(solve_small()[0].plot_map().lines))
         matplotlib.pyplot.close("all")

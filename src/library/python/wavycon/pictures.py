@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .results import Facts, Result, Results
 
 UNRESOLVED = 4   # the status code; from 10 on loads were not solved as requested
+THICK, THIN = 0.05, 0.02   # width of a colour bar over the height of its map, and least width over that of the map
 PLACES = ("x", "y", "depth", "distance")
 
 
@@ -135,6 +136,8 @@ def plot_stress_section(result: Result, column: str = "von_mises", ax: Any = Non
 
 def mesh(ax: Any, x: Any, y: Any, values: Any, words: str, *, style: dict[str, Any], **axis: Any) -> Any:
     picture = ax.pcolormesh(x, y, values, **{"shading": "nearest", "rasterized": True, **style})
-    ax.figure.colorbar(picture, ax=ax, label=words)
+    # A colour bar beside the map, as high as it; matplotlib's own stands beside the place of the map, which is larger.
+    width = max(THIN, THICK*np.ptp(y)/np.ptp(x)) if axis.get("aspect") == "equal" else THICK
+    ax.figure.colorbar(picture, cax=ax.inset_axes((1 + width, 0, width, 1)), label=words)
     ax.set(**axis)
     return ax
