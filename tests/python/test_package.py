@@ -98,10 +98,10 @@ def python_blocks(name):
 
 
 class Named:
-    """An array with names of its axes, as xarray has them."""
+    """An array with names of its axes, and perhaps coordinates, as xarray has them."""
 
-    def __init__(self, values, *dims):
-        self.values, self.dims = values, dims
+    def __init__(self, values, *dims, **coords):
+        self.values, self.dims, self.coords = values, dims, coords
 
     def __array__(self, *arguments, **options):
         return numpy.array(self.values, *arguments, **options)
@@ -758,6 +758,18 @@ except ImportError as error: print(error)"""
         for same in (numpy.asfortranarray(h), numpy.repeat(h, 2, 1)[:, ::2], h.astype("i2"), h.astype(">f4"), h.tolist(),
                      numpy.ma.masked_array(h.astype("i2")), pandas.DataFrame(h), Named(h, "y", "x"), Named(h.T, "x", "y")):
             self.assertEqual(expected, area(same))
+        # Coordinates have the sides, rising or falling, also of a profile; others are given.
+        x, y = numpy.float32(0.1) + 0.25*numpy.arange(12, dtype="f4"), numpy.arange(16)[::-1]*2
+        for same in Named(h, "y", "x", x=x, y=y), Named(h.T, "x", "y", x=x, y=y, z=1):
+            surface = wc.heights(same)
+            numpy.testing.assert_allclose((surface.length_x, surface.length_y), (3, 32), rtol=1e-6)
+            self.assertEqual(7, wc.heights(same, length_x=7).length_x)
+        for profile in Named(h[:, 0], "y", x=x[0], y=y), Named(h[:, :1], "y", "x", x=x[:1], y=y):
+            self.assertEqual(32, wc.heights(profile).length_x)
+        self.assertEqual({"kind", "file"}, set(wc.heights(Named(h, "y", "x", lat=y)).keys))
+        uneven = Named(h, "y", "x", x=x**2)
+        self.refuse("coordinates x do not have equal steps: .* or give length_x", wc.heights, uneven)
+        self.assertEqual(3, wc.heights(uneven, length_x=3).length_x)
 
     def test_loads_of_any_kind(self):
         """`solve` of a surface and of a problem take the same kinds of lists."""

@@ -10,14 +10,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import library
-from .deck import dictionary, groups_of, scene_of, value_text
+from .deck import NEAR, dictionary, groups_of, scene_of, value_text
 from .library import Handle, address, call, keys, one_number, reals
 from .names import Load, Options, Settings, Unpack
 from .progress import Watch
 from .results import Facts, Result, Results, note_news
 from .surfaces import SIDES, Surface
-
-NEAR = 1e-3   # steps by which places of points may be off, which may have been computed in single precision
 
 
 def solve(surface: Surface, *, keep_fields: bool = True, progress: bool = True, **options: Unpack[Options]) -> Results:
