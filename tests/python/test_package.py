@@ -82,6 +82,17 @@ with ThreadPoolExecutor(4) as pool:
 """
 # Seconds after which a process counts as hanging.
 HANGING = 60
+C_PROGRAM = """#include <stdio.h>
+#include "wavycon.h"
+int main(void)
+{
+  char version[100] = "";
+  wavycon_error error = wavycon_new_error();
+  wavycon_get_text(error, NULL, "version", version, sizeof version);
+  fputs(version, stdout);
+  return wavycon_get_code(error);
+}
+"""
 # A picture of 1 x 1 points: a directory of entries (tag, type, number, value), and the value of a point.
 TIFF = b"II*\0" + struct.pack("<IH", 8, 8) + b"".join(
     struct.pack("<HHII", tag, 4, 1, value) for tag, value in
@@ -881,6 +892,21 @@ def pages():
 
 
 class Processes(PackageTest):
+    def test_a_program_in_c(self):
+        """The package has what it needs."""
+        folder = wc.get_include()
+        self.assertTrue(os.path.isfile(os.path.join(folder, "wavycon.h")))
+        compiler = shutil.which("cc")
+        if not compiler or sys.platform == "win32":
+            self.skipTest("no compiler")
+        pathlib.Path("keys.c").write_text(C_PROGRAM)
+        # In a build tree the library of the package is a link to one with a version in its name.
+        of_library = next(pathlib.Path(folder).glob("libwavycon.*")).resolve().parent
+        subprocess.run([compiler, "keys.c", f"-I{folder}", f"-L{folder}", "-lwavycon", f"-Wl,-rpath,{of_library}", "-o",
+                        "keys"], check=True)
+        printed = subprocess.run([self.folder/"keys"], check=True, capture_output=True, text=True).stdout
+        self.assertEqual(wc.__version__, printed)
+
     def test_threads(self):
         """Threads solve at the same time, to the digits of one, and share results."""
         surface = wc.self_affine(rms_height=1, points=128, short_wavelength=0.05)

@@ -40,7 +40,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
 }
 
 folders = map(Path, sys.modules[__package__].__path__)
-lib = CDLL(str(next(path for folder in folders for path in folder.glob("libwavycon.*"))))
+path = next(path for folder in folders for path in folder.glob("libwavycon.*"))
+lib = CDLL(str(path))
 lib.wavycon_new_error.restype = POINTER
 lib.wavycon_get_code.argtypes = lib.wavycon_delete.argtypes = [POINTER]
 lib.wavycon_get_message.argtypes = [POINTER, POINTER, c_size_t]
