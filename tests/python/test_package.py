@@ -533,7 +533,7 @@ class Certify(PackageTest):
             self.assertEqual(wc.certify(mirrored, one.pressure, one.gap, **load), wc.certify(mirrored, one, **load))
             self.refuse("half a step from its borders", wc.certify, mirrored, one.pressure, one.gap, **load,
                         **{**places, name: places[name] - places[name][0]})
-        for words, x in {"x must have the places of 40 points": one.x, "equal steps over the whole side 2":
+        for words, x in {"x must be 40 places": one.x, "equal steps over the whole side 2":
                          numpy.linspace(0, 2, 40), "at most a step": numpy.arange(40)/20 - 1}.items():
             self.refuse(words, wc.certify, surface, p, g, x=x, **load)
 
@@ -1039,7 +1039,7 @@ class Files(PackageTest):
         pathlib.Path("marks.txt").write_text("z\n1\nNA\n2\n3\n")   # one column
         self.assertEqual((1, 4), wc.read("marks.txt", fill_missing="harmonic").prepared().heights.shape)
         numpy.savetxt("map.txt", h)
-        self.refuse("map.txt: missing_value is for files that the program reads", wc.read, "map.txt", missing_value=1)
+        self.refuse("map.txt: leave out missing_value: it is for wavycon.file", wc.read, "map.txt", missing_value=1)
 
     def test_what_is_no_file_of_an_instrument(self):
         """The program reads tables of numbers, or tells what is wrong."""

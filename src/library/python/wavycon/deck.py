@@ -44,8 +44,7 @@ def side_of(axis: str, places: Array) -> float:
     """The side along an axis of points at these places, of which each stands for a step."""
     step = (places[-1] - places[0])/(places.size - 1)
     if not abs(places - places[0] - step*np.arange(places.size)).max() <= NEAR*abs(step):
-        raise ValueError(f"the coordinates {axis} do not have equal steps: resample the heights, by interp of xarray, "
-                         f"or give length_{axis}")
+        raise ValueError(f"the coordinates {axis} do not have equal steps: interpolate, or give length_{axis}")
     return float(abs(step)*places.size)
 
 
@@ -95,8 +94,7 @@ def scene_of(surface: Surface, options: Mapping[str, Any], keep_fields: bool) ->
     """The scene of a surface and of options as of solve."""
     deck, h = deck_text(groups_of(surface, options)).encode(), surface.in_memory
     rows, columns = (0, 0) if h is None else h.shape
-    scene: Handle = call("new_scene", deck, b"wavycon.solve", bool(keep_fields), columns, rows,
-                         None if h is None else address(h))
+    scene: Handle = call("new_scene", deck, b"wavycon.solve", bool(keep_fields), columns, rows, address(h))
     return scene
 
 

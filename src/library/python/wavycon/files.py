@@ -25,8 +25,7 @@ BEGINNINGS = {".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
 # ESRI, by their steps and order of rows, and a line of whole numbers and such with a decimal comma, without points.
 GSF_OR_ESRI = re.compile(rb"Gwyddion Simple Field 1\.|\s*(?i:ncols)\s")
 NUMBER = rb"[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?"
-DECIMAL_COMMAS = re.compile(rb"^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n",
-                            re.MULTILINE)
+DECIMAL_COMMAS = re.compile(rb"(?m)^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n")
 # The units of length that are converted, by powers of 10 m.
 LENGTHS = {"Gm": 9, "Mm": 6, "km": 3, "m": 0, "cm": -2, "mm": -3, "um": -6, "nm": -9, "Å": -10, "A": -10, "pm": -12,
            "fm": -15}
@@ -64,12 +63,10 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
             raise ValueError(f"{file}: SurfaceTopography cannot read it: {words}") from None
         return surface
     x, z, sides, unit = opened
-    for key, side in sides.items():
+    for key in *sides, "missing_value", "file_format", "file2":
         if keys_of_maps.get(key) is not None:
-            raise ValueError(f"{file}: leave out {key}: the file has {side:g} {unit or ''}".rstrip())
-    for key in "missing_value", "file_format", "file2":
-        if keys_of_maps.get(key) is not None:
-            raise ValueError(f"{file}: {key} is for files that the program reads: wavycon.file takes it")
+            why = f"the file has {sides[key]:g} {unit or ''}" if key in sides else "it is for wavycon.file"
+            raise ValueError(f"{file}: leave out {key}: {why}".rstrip())
     if x is None:
         return heights(z, length_unit=unit, **cast(names.Map, {**keys_of_maps, **sides}))
     tell([f"{file}: this profile has unequal steps and is resampled to equal ones"])
@@ -108,7 +105,7 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
     try:
         with opened(os.fspath(file)) as reader:
             # The number of bytes alone makes the one format, a name the other: of pictures that it does not know.
-            if (kind := reader.format()) == "hgt" != ending_of(file) or not reader.channels:
+            if (kind := reader.format()) == "hgt" != Path(file).suffix[1:].lower() or not reader.channels:
                 return None
             info = choose(reader.channels, channel)
             known, are_lines = info.physical_sizes is not None, kind == "asc"
@@ -124,22 +121,17 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
             z = z.T if getattr(getattr(reader, "_heights_var", None), "dimensions", None) == ("y", "x") else z
             x = None if topography.is_uniform else factor*np.asarray(topography.positions())
             sides = [factor*float(side) for side in (topography.physical_sizes if known else ())]
-    except NoHeights as error:
-        raise ValueError(f"{file}: {error}") from None
     except Exception as error:
         # Its readers raise whatever their formats bring about.
         if type(error).__name__ == "CannotDetectFileFormat":
             return None
-        raise ValueError(f"{file}: SurfaceTopography cannot read it: {in_line(type(error), error)}") from error
+        words = f"SurfaceTopography cannot read it: {in_line(type(error), error)}"
+        raise ValueError(f"{file}: {error if isinstance(error, NoHeights) else words}") from error
     if kind in ("asc", "xyz") and is_broken(file, z.ndim + 1 if kind == "xyz" else z[0].size):
         return None   # its readers leave out lines with words, such as NA, in silence, and take inf for missing
     if are_lines and not known and z.ndim == 2 and z.shape[1] == 3 and len(z) > 3:
         return None   # lines of points x, y, z with missing ones
     return x, z, dict(zip(SIDES, sides)), unit or own or None
-
-
-def ending_of(file: str | os.PathLike[str]) -> str:
-    return Path(file).suffix[1:].lower()
 
 
 def in_line(kind: type[Any], error: Exception) -> str:
@@ -149,7 +141,7 @@ def in_line(kind: type[Any], error: Exception) -> str:
 def refusal(file: str | os.PathLike[str]) -> str | None:
     """What the reader of SurfaceTopography for the ending of a file says of it; None without such a reader."""
     for reader in need("SurfaceTopography.IO", "files").readers:
-        if ending_of(file) in (reader.format(), *reader.file_extensions()):
+        if Path(file).suffix[1:].lower() in (reader.format(), *reader.file_extensions()):
             try:
                 reader(os.fspath(file))
             except Exception as error:
@@ -183,15 +175,15 @@ def choose(channels: Sequence[Any], channel: str | int | None) -> Any:
     """One of the channels of a file, by its name or number; the first one of a name, and the first one of heights if
     none is given. Errors: NoHeights."""
     heights = {place: one for place, one in enumerate(channels) if has_heights(one)}
-    there_are = ", ".join(f"{place} {one.name!r}" for place, one in heights.items()) or "none"
     named = {place: one for place, one in enumerate(channels) if channel in (None, place, one.name)}
     if chosen := [one for place, one in named.items() if place in heights]:
         return chosen[0]
+    fault = f"there is no channel {'of heights' if channel is None else repr(channel)}"
     if named:
         words = ", ".join(f"the channel {place} {one.name!r} is in {unit_of(one)!r}" for place, one in named.items())
-        raise NoHeights(f"{words}, which is no length ({', '.join(LENGTHS)}); channels of heights: {there_are}")
-    raise NoHeights(f"there is no channel {'of heights' if channel is None else repr(channel)}; channels of heights: "
-                    + there_are)
+        fault = f"{words}, which is no length ({', '.join(LENGTHS)})"
+    there_are = ", ".join(f"{place} {one.name!r}" for place, one in heights.items()) or "none"
+    raise NoHeights(f"{fault}; channels of heights: {there_are}")
 
 
 def unit_of(channel: Any) -> Any:
@@ -231,12 +223,11 @@ def written(path: str, begin: bytes = b"", *inputs: str) -> Iterator[IO[bytes]]:
 def write_gsf(file: IO[bytes], z: Array, sides: dict[str, float], unit: str | None) -> None:
     """Gwyddion's simple field: a head, filled with 1 to 4 null characters to a multiple of 4 bytes, and float32. The
     heights are written over their mean, which may be so large that float32 does not tell them apart."""
-    head = "Gwyddion Simple Field 1.0\n"
     lines = {"XRes": z.shape[1], "YRes": z.shape[0], "XReal": sides.get("length_x"), "YReal": sides.get("length_y"),
              "XYUnits": unit, "ZUnits": unit}
-    head += "".join(f"{name} = {value}\n" for name, value in lines.items() if value is not None)
-    start = head.encode()
-    file.write(start + bytes(4 - len(start) % 4) + (z - np.nanmean(z)).astype("<f4").tobytes())
+    told = "".join(f"{name} = {value}\n" for name, value in lines.items() if value is not None)
+    head = f"Gwyddion Simple Field 1.0\n{told}".encode()
+    file.write(head + bytes(4 - len(head) % 4) + (z - np.nanmean(z)).astype("<f4").tobytes())
 
 
 def convert(arguments: list[str] | None = None) -> None:
@@ -256,9 +247,9 @@ def convert(arguments: list[str] | None = None) -> None:
             surface = read(given.file, channel, length_unit=given.unit, fill_missing="harmonic")
         sys.stderr.writelines(f"wavycon-convert: note: {note.message}\n" for note in notes
                               if issubclass(note.category, Note))
-        rows, unit, kind = surface.in_memory, surface.length_unit, Path(given.map).suffix
-        if rows is None:
+        if surface.in_memory is None:
             raise ValueError(f"{given.file}: decks read this file as it is")
+        rows, unit, kind = surface.in_memory, surface.length_unit, Path(given.map).suffix
         sides = {key: surface.keys[key] for key in SIDES if key in surface.keys}
         if kind not in BEGINNINGS:
             raise ValueError(f"{given.map}: the name must end in .gsf or .npy")

@@ -29,9 +29,9 @@ path = next(path for folder in folders for path in folder.glob("libwavycon.*"))
 lib = CDLL(str(path))
 header = path.with_name("wavycon.h").read_text(encoding="utf-8")
 for _result, _name, _arguments in re.findall(r"^(\w+) (wavycon_\w+)\((?:void|([^)]+))\);", header, re.MULTILINE):
+    _types = map(str.strip, re.findall(r"([^,]+?)\w+(?:,|$)", _arguments))   # of each argument, without its name
     getattr(lib, _name).restype = TYPES.get(_result, c_void_p)
-    # Of each argument the type, without its name.
-    getattr(lib, _name).argtypes = [TYPES.get(one.strip(), c_void_p) for one in re.findall(r"([^,]+?)\w+(?:,|$)", _arguments)]
+    getattr(lib, _name).argtypes = [TYPES.get(one, c_void_p) for one in _types]
 
 
 class Note(UserWarning):
@@ -141,9 +141,9 @@ def need(name: str, extra: str) -> Any:
                           f"{package} is installed, but cannot be imported: {error}") from error
 
 
-def address(array: Array) -> int:
-    """Where the numbers of an array are; the array must outlive it."""
-    return array.ctypes.data
+def address(array: Array | None) -> int | None:
+    """Where the numbers of an array are; the array must outlive it. NULL for None."""
+    return None if array is None else array.ctypes.data
 
 
 @functools.cache

@@ -48,8 +48,8 @@ class Surface:
         """A key that is given, such as length_x."""
         if name not in (own := self.__dict__.get("keys", ())):
             remedy = "; prepared() reads its file"*(self.__dict__.get("in_memory") is None and "file" in own)
-            raise AttributeError(f"this surface has no {name!r}; it has {', '.join(('heights', 'length_unit', *own))}"
-                                 + remedy)
+            known = ", ".join(("heights", "length_unit", *own))
+            raise AttributeError(f"this surface has no {name!r}; it has {known}{remedy}")
         return own[name]
 
     @functools.cached_property
@@ -89,8 +89,7 @@ class Surface:
         """The surface of two bodies: the sum of two maps, each prepared before by its own keys. Errors: ValueError for
         points, sides, edges and units that are not the same."""
         if not isinstance(other, Surface):
-            raise TypeError(f"a surface and {type(other).__name__} cannot be added: wavycon.heights makes a surface of "
-                            "an array")
+            raise TypeError(f"a surface and {type(other).__name__} cannot be added: wavycon.heights takes an array")
         maps = [one if one.in_memory is not None else one.prepared() for one in (self, other)]
         # A map without sides or unit has those of the other one. A file that has sides refuses others.
         for place, (one, more) in enumerate(zip((self, other), maps[::-1])):
