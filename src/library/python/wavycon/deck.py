@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import names
-from .library import Array, Handle, address, call, keys, reals
+from .library import Handle, address, call, keys, reals
 from .surfaces import SIDES, Surface, check_names, meanings, slips, unit_name, unknown
 
 NEAR = 1e-3   # steps by which places of points may be off, which may have been computed in single precision
@@ -32,20 +32,15 @@ def heights(h: npt.ArrayLike, *, length_unit: str | None = None, **keys_of_maps:
     axes, coordinates = getattr(h, "dims", ()), getattr(h, "coords", {})
     for side, axis in zip(SIDES, sorted(axis for axis, points in zip(axes, np.shape(h)) if points > 1)):
         if axis in ("x", "y") and axis in coordinates and given.get(side) is None:
-            given[side] = side_of(axis, reals(coordinates[axis]))
+            steps = np.diff(reals(coordinates[axis]))
+            if not np.ptp(steps) <= NEAR*abs(steps[0]):
+                raise ValueError(f"the coordinates {axis} do not have equal steps: interpolate, or give length_{axis}")
+            given[side] = float(abs(steps.mean())*(steps.size + 1))
     h = reals(h).T.copy() if axes == ("x", "y") else reals(h)
     if h.ndim not in (1, 2) or h.size == 0:
         raise ValueError(f"heights must have the shape (y, x) or (x,), got {h.shape}")
     h = h if h.ndim == 2 and h.shape[1] > 1 else h.reshape(1, -1)   # a column is a profile
     return Surface(names.file(file="heights", **cast(names.Map, given)).keys, h, length_unit)
-
-
-def side_of(axis: str, places: Array) -> float:
-    """The side along an axis of points at these places, of which each stands for a step."""
-    step = (places[-1] - places[0])/(places.size - 1)
-    if not abs(places - places[0] - step*np.arange(places.size)).max() <= NEAR*abs(step):
-        raise ValueError(f"the coordinates {axis} do not have equal steps: interpolate, or give length_{axis}")
-    return float(abs(step)*places.size)
 
 
 def sort_keys(given: Mapping[str, Any]) -> dict[str, dict[str, Any]]:

@@ -232,8 +232,7 @@ def write_gsf(file: IO[bytes], z: Array, sides: dict[str, float], unit: str | No
 
 def convert(arguments: list[str] | None = None) -> None:
     """The command wavycon-convert."""
-    parser = argparse.ArgumentParser(prog="wavycon-convert", description="Converts a file of an instrument to one that "
-                                     "decks of wavycon read.")
+    parser = argparse.ArgumentParser(prog="wavycon-convert", description="Converts a file of an instrument for decks.")
     parser.add_argument("file", help="of any format that SurfaceTopography opens")
     parser.add_argument("map", help="to be written: .gsf with sides and units, heights over their mean in "
                         "single precision, .npy with all digits")

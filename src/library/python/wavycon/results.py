@@ -390,12 +390,11 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
                                  "to_dataframe(units=True).to_csv() writes tables with commas")
             path += ".npz"
         with written(path, b"\x89HDF" if path.endswith(HDF5) else b"PK") as opened:
-            if path.endswith(".npz"):
+            if path.endswith(HDF5):
+                with need("h5py", "h5").File(opened.name, "w") as saved:
+                    saved.update({name: retyped(values, "<U", "|S") for name, values in content.items()})
+            else:
                 np.savez(opened, **content)
-                return
-            with need("h5py", "h5").File(opened.name, "w") as saved:
-                for name, values in content.items():
-                    saved[name] = retyped(values, "<U", "|S")
 
 
 def load(file: str | os.PathLike[str] | IO[bytes]) -> Results:

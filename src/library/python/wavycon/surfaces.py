@@ -102,14 +102,14 @@ class Surface:
         facts: list[dict[str, Any]] = [{"shape": one.heights.shape, "length_unit": one.length_unit,
                                         "edges": "periodic", **dict.fromkeys(SIDES), **one.keys} for one in maps]
         points = dict(zip(SIDES, maps[0].heights.shape[::-1]))
+        convert = "; read(file, length_unit=...) converts a file, heights(factor*h, length_unit=...) an array"
         for name in "shape", "length_unit", *SIDES, "edges":
             own, others = (one[name] for one in facts)
             # Sides of instruments may differ by half a step.
             is_near = name in points and (None in (own, others) or 2*points[name]*abs(own - others) <= own)
             if own != others and not is_near:
                 raise ValueError(f"two maps must have the same {name}, got {own!r} and {others!r}"
-                                 + ("; read(file, length_unit=...) converts a file, heights(factor*h, length_unit=...) "
-                                    "an array")*(name == "length_unit"))
+                                 + convert*(name == "length_unit"))
         return Surface({**maps[1].keys, **maps[0].keys}, maps[0].heights + maps[1].heights, maps[0].length_unit)
 
     __radd__ = __add__
