@@ -54,7 +54,7 @@ for file in map(Path, sys.argv[1:]):
             name = reader.format()
     except ValueError:
         continue
-    h = surface.heights
+    h = surface.in_memory   # as the file has them
     if h is None or min(h.shape) < 32:
         continue
     ratio = rms_height(wc.heights(h, fill_missing="harmonic"))/np.nanstd(h) - 1

@@ -20,6 +20,7 @@ import pickle
 import re
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -81,6 +82,21 @@ with ThreadPoolExecutor(4) as pool:
 """
 # Seconds after which a process counts as hanging.
 HANGING = 60
+C_PROGRAM = """#include <stdio.h>
+#include "wavycon.h"
+int main(void)
+{
+  char version[100] = "";
+  wavycon_error error = wavycon_new_error();
+  wavycon_get_text(error, NULL, "version", version, sizeof version);
+  fputs(version, stdout);
+  return wavycon_get_code(error);
+}
+"""
+# A picture of 1 x 1 points: a directory of entries (tag, type, number, value), and the value of a point.
+TIFF = b"II*\0" + struct.pack("<IH", 8, 8) + b"".join(
+    struct.pack("<HHII", tag, 4, 1, value) for tag, value in
+    {256: 1, 257: 1, 258: 8, 259: 1, 262: 1, 273: 110, 278: 1, 279: 1}.items()) + bytes(5)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -93,10 +109,10 @@ def python_blocks(name):
 
 
 class Named:
-    """An array with names of its axes, as xarray has them."""
+    """An array with names of its axes, and perhaps coordinates, as xarray has them."""
 
-    def __init__(self, values, *dims):
-        self.values, self.dims = values, dims
+    def __init__(self, values, *dims, **coords):
+        self.values, self.dims, self.coords = values, dims, coords
 
     def __array__(self, *arguments, **options):
         return numpy.array(self.values, *arguments, **options)
@@ -292,6 +308,12 @@ class Digits(PackageTest):
             factor = {"m": 1, "um": 1e6}[results.length_unit]
             self.assertAlmostEqual(4e-6*factor, results.length_x, delta=1e-12*factor)
             numpy.testing.assert_allclose(results[0].gap, gap*factor, atol=4e-7*factor*numpy.abs(h).max())
+        # Heights of a file that the program reads are those that it solves; its deck still names the file.
+        surface = wc.read("map.gsf", length_unit="um", detrend="plane")
+        numpy.testing.assert_allclose(surface.heights, surface.prepared().heights, rtol=0)
+        numpy.testing.assert_allclose(wc.file(file="map.gsf").heights, h - h.mean(), atol=2e-7)
+        self.assertIn("map.gsf", wc.solve(surface, pbar_over_pstar=0).deck)
+        self.refuse("results.surface has the heights of others", lambda: wc.wave_2d().heights)
         self.refuse("no channel 'Height'", wc.read, "map.gsf", "Height")
         for name in "empty.gsf", "empty.npy", "empty.txt":
             pathlib.Path(name).touch()
@@ -423,6 +445,15 @@ class Digits(PackageTest):
         self.assertIs(given, results.plot(ax=given))
         self.assertEqual("mean pressure [p*]", given.get_xlabel())
         self.assertEqual("y [length]", results[1].plot_map("gap").get_ylabel())
+        # A colour bar is as high as its map, and beside it.
+        for points in (8, 64), (64, 8):
+            h = numpy.random.default_rng(1).normal(size=points)
+            ax = wc.solve(wc.heights(h, length_x=points[1]), pbar_over_pstar=0.1)[0].plot_map("gap")
+            ax.figure.draw_without_rendering()
+            drawn, bar = ax.get_window_extent(), ax.collections[0].colorbar.ax.get_window_extent()
+            numpy.testing.assert_allclose((bar.y0, bar.y1), (drawn.y0, drawn.y1))
+            self.assertLess(0.1*bar.width, bar.x0 - drawn.x1)
+            self.assertLess(bar.x0 - drawn.x1, 0.1*max(drawn.width, drawn.height))
         self.assertEqual("depth [length]", results[1].plot_stress_section().get_ylabel())
         self.assertEqual(1, len(solve_small()[0].plot_map().lines))
         matplotlib.pyplot.close("all")
@@ -502,7 +533,7 @@ class Certify(PackageTest):
             self.assertEqual(wc.certify(mirrored, one.pressure, one.gap, **load), wc.certify(mirrored, one, **load))
             self.refuse("half a step from its borders", wc.certify, mirrored, one.pressure, one.gap, **load,
                         **{**places, name: places[name] - places[name][0]})
-        for words, x in {"x must have the places of 40 points": one.x, "equal steps over the whole side 2":
+        for words, x in {"x must be 40 places": one.x, "equal steps over the whole side 2":
                          numpy.linspace(0, 2, 40), "at most a step": numpy.arange(40)/20 - 1}.items():
             self.refuse(words, wc.certify, surface, p, g, x=x, **load)
 
@@ -738,6 +769,18 @@ except ImportError as error: print(error)"""
         for same in (numpy.asfortranarray(h), numpy.repeat(h, 2, 1)[:, ::2], h.astype("i2"), h.astype(">f4"), h.tolist(),
                      numpy.ma.masked_array(h.astype("i2")), pandas.DataFrame(h), Named(h, "y", "x"), Named(h.T, "x", "y")):
             self.assertEqual(expected, area(same))
+        # Coordinates have the sides, rising or falling, also of a profile; others are given.
+        x, y = numpy.float32(0.1) + 0.25*numpy.arange(12, dtype="f4"), numpy.arange(16)[::-1]*2
+        for same in Named(h, "y", "x", x=x, y=y), Named(h.T, "x", "y", x=x, y=y, z=1):
+            surface = wc.heights(same)
+            numpy.testing.assert_allclose((surface.length_x, surface.length_y), (3, 32), rtol=1e-6)
+            self.assertEqual(7, wc.heights(same, length_x=7).length_x)
+        for profile in Named(h[:, 0], "y", x=x[0], y=y), Named(h[:, :1], "y", "x", x=x[:1], y=y):
+            self.assertEqual(32, wc.heights(profile).length_x)
+        self.assertEqual({"kind", "file"}, set(wc.heights(Named(h, "y", "x", lat=y)).keys))
+        uneven = Named(h, "y", "x", x=x**2)
+        self.refuse("coordinates x do not have equal steps: .* or give length_x", wc.heights, uneven)
+        self.assertEqual(3, wc.heights(uneven, length_x=3).length_x)
 
     def test_loads_of_any_kind(self):
         """`solve` of a surface and of a problem take the same kinds of lists."""
@@ -849,6 +892,21 @@ def pages():
 
 
 class Processes(PackageTest):
+    def test_a_program_in_c(self):
+        """The package has what it needs."""
+        folder = wc.get_include()
+        self.assertTrue(os.path.isfile(os.path.join(folder, "wavycon.h")))
+        compiler = shutil.which("cc")
+        if not compiler or sys.platform == "win32":
+            self.skipTest("no compiler")
+        pathlib.Path("keys.c").write_text(C_PROGRAM)
+        # In a build tree the library of the package is a link to one with a version in its name.
+        of_library = next(pathlib.Path(folder).glob("libwavycon.*")).resolve().parent
+        subprocess.run([compiler, "keys.c", f"-I{folder}", f"-L{folder}", "-lwavycon", f"-Wl,-rpath,{of_library}", "-o",
+                        "keys"], check=True)
+        printed = subprocess.run([self.folder/"keys"], check=True, capture_output=True, text=True).stdout
+        self.assertEqual(wc.__version__, printed)
+
     def test_threads(self):
         """Threads solve at the same time, to the digits of one, and share results."""
         surface = wc.self_affine(rms_height=1, points=128, short_wavelength=0.05)
@@ -973,8 +1031,15 @@ class Files(PackageTest):
         lines = [f"{i} {'NA' if i == 5 else i % 3}" for i in range(12)]
         pathlib.Path("marks.txt").write_text("x z\n" + "\n".join(lines))
         self.assertEqual((1, 12), wc.read("marks.txt", fill_missing="harmonic").prepared().heights.shape)
+        # An infinite height is wrong, as the program has it; SurfaceTopography takes it for missing.
+        for text, line in (("1 2 3\n4 inf 6\n7 8 9", 2), ("0 1\n1 2\n2 -Infinity", 3), ("inf\n1\n2\n3", 1),
+                           ("0 0 1\n1 0 inf\n0 1 1\n1 1 2", 2)):
+            pathlib.Path("marks.txt").write_text(text + "\n")
+            self.refuse(f"marks.txt:{line}: '.*' is not a height: write nan if it is missing", wc.read, "marks.txt")
+        pathlib.Path("marks.txt").write_text("z\n1\nNA\n2\n3\n")   # one column
+        self.assertEqual((1, 4), wc.read("marks.txt", fill_missing="harmonic").prepared().heights.shape)
         numpy.savetxt("map.txt", h)
-        self.refuse("map.txt: missing_value is for files that the program reads", wc.read, "map.txt", missing_value=1)
+        self.refuse("map.txt: leave out missing_value: it is for wavycon.file", wc.read, "map.txt", missing_value=1)
 
     def test_what_is_no_file_of_an_instrument(self):
         """The program reads tables of numbers, or tells what is wrong."""
@@ -985,9 +1050,15 @@ class Files(PackageTest):
         pathlib.Path("number.json").write_text('{"a": 1}')   # of 8 bytes, as a tile of 2 x 2 heights, .hgt
         pathlib.Path("grey.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(60))
         pathlib.Path("cut.opd").write_bytes(b"\1\0Directory" + bytes(9))
+        pathlib.Path("cut.al3d").write_bytes(b"AliconaImaging\0\r\nVersion".ljust(50, b"\0"))   # of a tile's size too
+        pathlib.Path("link.al3d").write_text("version https://git-lfs\n")   # in place of the file
+        pathlib.Path("grey.tif").write_bytes(TIFF)
         (self.folder/"folder.opd").mkdir()
         for name, words in {"ragged.txt": "2: this row has 2 numbers, the first has 3", "number.json": " there are no",
                             "grey.png": " by its name this is a picture", "folder.opd": " this is no file",
+                            "grey.tif": " by its name this is a picture, which has no scale .* to wavycon.heights",
+                            "cut.al3d": " SurfaceTopography cannot read it: AL3DReader: .*truncated",
+                            "link.al3d": " SurfaceTopography cannot read it: AL3DReader: .*magic",
                             "cut.opd": " SurfaceTopography cannot read it: OPDReader: .*truncated"}.items():
             self.refuse(f"{name}:{words}", wc.read, name, error=(ValueError, OSError))
             with self.assertRaisesRegex(SystemExit, f"{name}:{words}"):
@@ -1004,13 +1075,13 @@ class Files(PackageTest):
         # Numbers are those of the file, and of one name that which has heights is taken.
         self.assertEqual(["Height", "Zsensor", "Zsensor"], [files.choose(mixed, one).name for one in (1, 4, "Zsensor")])
         self.assertIs(mixed[6], files.choose(mixed, "Phase"))
-        heights = "which is no length; channels of heights: 1 'Height', 4 'Zsensor', 6 'Phase'"
+        heights = "which is no length .Gm, .*, fm.; channels of heights: 1 'Height', 4 'Zsensor', 6 'Phase'"
         for wanted, unit in {0: "0 'Phase' is in 'deg'", "Error": "2 'Error' is in 'V'", 5: "5 'Lateral' is in 'px'"}.items():
             self.refuse(f"the channel {unit}, {heights}", files.choose, mixed, wanted, error=files.NoHeights)
         for wanted in 7, "Friction":
             self.refuse(f"no channel {wanted!r}; channels of heights: 1 'Height'", files.choose, mixed, wanted,
                         error=files.NoHeights)
-        self.refuse("the channel 0 'Phase' is in 'deg', which is no length; channels of heights: none", files.choose,
+        self.refuse("the channel 0 'Phase' is in 'deg', which is no length .*; channels of heights: none", files.choose,
                     [phase], None, error=files.NoHeights)
         self.refuse("no channel of heights; channels of heights: none", files.choose, [], None, error=files.NoHeights)
         pathlib.Path("scan.ibw").write_text("of an instrument")
@@ -1028,7 +1099,26 @@ class Files(PackageTest):
         numpy.testing.assert_allclose(both.heights, 2*surface.heights - surface.heights.mean(), atol=1e-14)
         self.refuse("'um' and 'nm'; read.file, length_unit", lambda: wc.read("um.txt") + wc.heights(
             surface.heights, length_unit="nm"))
-        self.refuse("um.txt: 'furlong' is no unit to which", wc.read, "um.txt", length_unit="furlong")
+        self.refuse("um.txt: 'furlong' is no unit to which 'um' is converted: units are .*, m, cm, mm, um", wc.read,
+                    "um.txt", length_unit="furlong")
+        for unit in "\u00b5m", "\u03bcm":   # the micro sign, the Greek letter
+            self.assertEqual("um", wc.read("um.txt", length_unit=unit).length_unit)
+            self.assertEqual(4, wc.solve(surface, pbar_over_pstar=0, length_unit=unit).length_x)
+
+    def test_units_are_those_of_the_program(self):
+        """Those of the file, by SurfaceTopography or the program, and those that a user gives."""
+        with self.assertRaises(ValueError) as raised:
+            (self.folder/"inch.txt").write_text("# Width: 4 inch\n# Height: 3 inch\n# Value units: inch\n1 2 3\n4 5 7\n1 2 3\n")
+            wc.read("inch.txt")
+        known = re.search("one of (.*) and (pm)", str(raised.exception))
+        for unit in [*known[1].split(", "), known[2]]:
+            self.assertIn(surfaces.unit_name(unit), files.LENGTHS)
+            for of_file in unit, "mm":
+                (self.folder/"unit.txt").write_text(f"# Width: 4 {of_file}\n# Height: 3 {of_file}\n# Value units: {of_file}\n"
+                                                    "1 2 3\n4 5 7\n1 2 3\n", encoding="utf-8")
+                one = wc.solve(wc.read("unit.txt", length_unit=unit), pbar_over_pstar=0)
+                factor = 1 if of_file == unit else 10.0**(-3 - files.LENGTHS[surfaces.unit_name(unit)])
+                numpy.testing.assert_allclose((one.length_x, numpy.ptp(one[0].gap)), numpy.array([4, 6])*factor, rtol=1e-12)
 
     def test_unequal_steps(self):
         x = numpy.sort(numpy.random.default_rng(1).uniform(0, 1, 60))
@@ -1066,6 +1156,6 @@ if __name__ == "__main__":
     import numpy
     import pandas
     import wavycon as wc
-    from wavycon import files
+    from wavycon import files, surfaces
     from wavycon.files import convert
     main()

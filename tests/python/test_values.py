@@ -554,7 +554,7 @@ class Pictures(ValuesTest):
         self.assertAlmostEqual(1e-6*results[0].pressure.max(), ax.collections[0].get_array().max(), delta=1e-9)
         ax = results[0].plot_stress_section()
         self.assertEqual(("distance [µm]", "depth [µm]"), (ax.get_xlabel(), ax.get_ylabel()))
-        self.assertEqual("von Mises [MPa]", ax.figure.axes[1].get_ylabel())
+        self.assertEqual("von Mises [MPa]", ax.collections[0].colorbar.ax.get_ylabel())
         for other in results[0].plot_map("gap"), results[0].plot_map("regions"), ax:
             self.assertGreater(other.get_xlim()[1], 490)
         self.assertEqual("contact area [m²]", results.plot("contact_area").get_ylabel())

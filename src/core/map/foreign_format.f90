@@ -11,13 +11,14 @@ module wavycon_foreign_format
       'and wavycon.read reads them in Python; otherwise '//by_gwyddion
 
    !> Endings of names by group; below, for each group, what such a file is and how to convert it.
-   character(*), parameter :: endings(*) = [character(160) :: &
+   character(*), parameter :: endings(*) = [character(200) :: &
       ' png jpg jpeg tif tiff bmp gif ', &
-      ' sdf x3p plux al3d plu opd opdx sur vk4 vk6 gwy spm ibw nid mi mnt zmg os3d stp xyzgz gxyzf nms tmd frt '// &
-      'bcrf hfm top grd ', &
+      ' sdf x3p plux al3d plu apx opd opdx datx sur ezd vk3 vk4 vk6 vk7 gwy spm di ibw nid mi mnt mdt jpk lext zmg '// &
+      'zon oir poir qep os3d stp cur tom xyzgz gxyzf nms tmd frt bcr bcrf hfm top grd ', &
       ' mat h5 hdf5 nc ', ' zip gz bz2 xz ', ' xls xlsx ods ', ' npz ']
    character(*), parameter :: remedies(*) = [character(400) :: &
-      'a picture, whose colours are no lengths: '//by_gwyddion, &
+      'a picture, which has no scale of heights: '//by_gwyddion//', or read it in '// &
+      'Python by another package as an array, and give that, in lengths, to wavycon.heights', &
       'a file of an instrument or of Gwyddion: '//by_python, &
       'a file of HDF5, NetCDF or MATLAB: if wavycon-convert does not read it write its heights in Python, by '// &
       'numpy.save', &

@@ -24,10 +24,15 @@ from .results import Result, Results, Roughness, load
 from .solving import Bounds, Problem, certify, problem, run, solve
 from .surfaces import Surface
 
-__all__ = ["Bounds", "Note", "Problem", "Result", "Results", "Roughness", "Surface", "certify", "heights", "keys",
-           "load", "problem", "read", "run", "set_threads", "solve", "sweep"]
+__all__ = ["Bounds", "Note", "Problem", "Result", "Results", "Roughness", "Surface", "certify", "get_include",
+           "heights", "keys", "load", "problem", "read", "run", "set_threads", "solve", "sweep"]
 __all__ += _names.__all__
 __version__ = _library.text(None, "version")
+
+
+def get_include() -> str:
+    """The folder of wavycon.h, and of the library libwavycon, for programs in C."""
+    return str(_library.path.parent)
 
 
 def keys() -> dict[str, dict[str, dict[str, _Any]]]:

@@ -4,32 +4,43 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 from numbers import Integral, Real
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from . import names
 from .library import Handle, address, call, keys, reals
-from .surfaces import Surface, check_names, meanings, slips, unknown
+from .surfaces import SIDES, Surface, check_names, meanings, slips, unit_name, unknown
+
+NEAR = 1e-3   # steps by which places of points may be off, which may have been computed in single precision
 
 
 def heights(h: npt.ArrayLike, *, length_unit: str | None = None, **keys_of_maps: names.Unpack[names.Map]) -> Surface:
     """A surface of heights in memory.
 
     h: heights [length] upwards to the other body, shape (y, x) or, of a profile, (x,); of xarray's axes the names x and
-    y tell which is which. NaN and masked values are missing heights. length_unit: the unit of all lengths, a label.
+    y tell which is which, and coordinates of these names have the sides, a step for each point, unless sides are given.
+    NaN and masked values are missing heights. length_unit: the unit of all lengths, a label.
     keys_of_maps: those of a map, such as length_x, length_y [length], height_scale, detrend, fill_missing and edges;
     help(wavycon.file) has them all.
     """
     check_names("heights", keys_of_maps, [*names.Map.__annotations__, "length_unit"])
     if isinstance(h, (str, os.PathLike)):
         raise ValueError(f"heights takes an array, got {h!r}: wavycon.read takes a file")
-    h = reals(h).T.copy() if getattr(h, "dims", None) == ("x", "y") else reals(h)
+    given: dict[str, Any] = {**keys_of_maps}
+    axes, coordinates = getattr(h, "dims", ()), getattr(h, "coords", {})
+    for side, axis in zip(SIDES, sorted(axis for axis, points in zip(axes, np.shape(h)) if points > 1)):
+        if axis in ("x", "y") and axis in coordinates and given.get(side) is None:
+            steps = np.diff(reals(coordinates[axis]))
+            if not np.ptp(steps) <= NEAR*abs(steps[0]):
+                raise ValueError(f"the coordinates {axis} do not have equal steps: interpolate, or give length_{axis}")
+            given[side] = float(abs(steps.mean())*(steps.size + 1))
+    h = reals(h).T.copy() if axes == ("x", "y") else reals(h)
     if h.ndim not in (1, 2) or h.size == 0:
         raise ValueError(f"heights must have the shape (y, x) or (x,), got {h.shape}")
     h = h if h.ndim == 2 and h.shape[1] > 1 else h.reshape(1, -1)   # a column is a profile
-    return Surface(names.file(file="heights", **keys_of_maps).keys, h, length_unit)
+    return Surface(names.file(file="heights", **cast(names.Map, given)).keys, h, length_unit)
 
 
 def sort_keys(given: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
@@ -68,7 +79,7 @@ def groups_of(surface: Surface, options: Mapping[str, Any]) -> dict[str, dict[st
                          + "; run takes the file of a deck, read one of heights"*isinstance(surface, str))
     groups = {"scene": {}, "surface": surface.keys, "method": {}, **sort_keys(options)}
     unit = groups["scene"].setdefault("length_unit", surface.length_unit)
-    if surface.length_unit not in (None, unit):
+    if surface.length_unit not in (None, unit_name(unit)):
         raise ValueError(f"the lengths of this surface are in {surface.length_unit}, and length_unit={unit!r} would "
                          "only rename them: leave it out; read(file, length_unit=...) converts lengths")
     return groups
@@ -76,10 +87,9 @@ def groups_of(surface: Surface, options: Mapping[str, Any]) -> dict[str, dict[st
 
 def scene_of(surface: Surface, options: Mapping[str, Any], keep_fields: bool) -> Handle:
     """The scene of a surface and of options as of solve."""
-    deck, h = deck_text(groups_of(surface, options)).encode(), surface.heights
+    deck, h = deck_text(groups_of(surface, options)).encode(), surface.in_memory
     rows, columns = (0, 0) if h is None else h.shape
-    scene: Handle = call("new_scene", deck, b"wavycon.solve", bool(keep_fields), columns, rows,
-                         None if h is None else address(h))
+    scene: Handle = call("new_scene", deck, b"wavycon.solve", bool(keep_fields), columns, rows, address(h))
     return scene
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from . import names
 from .deck import deck_text, heights, scene_of
 from .library import Array, Note, need, reals, tell
-from .surfaces import SIDES, Surface, check_names
+from .surfaces import SIDES, Surface, check_names, unit_name
 
 # Of the files that are written, by the ends of their names.
 BEGINNINGS = {".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
@@ -25,10 +25,13 @@ BEGINNINGS = {".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
 # ESRI, by their steps and order of rows, and a line of whole numbers and such with a decimal comma, without points.
 GSF_OR_ESRI = re.compile(rb"Gwyddion Simple Field 1\.|\s*(?i:ncols)\s")
 NUMBER = rb"[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?"
-DECIMAL_COMMAS = re.compile(rb"^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n",
-                            re.MULTILINE)
-# A number, or a missing one, as SurfaceTopography reads it.
-WORD = re.compile(rb"[-+]?(?:\.?\d[-+.\dEe]*|nan|inf)", re.IGNORECASE)
+DECIMAL_COMMAS = re.compile(rb"(?m)^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n")
+# The units of length that are converted, by powers of 10 m.
+LENGTHS = {"Gm": 9, "Mm": 6, "km": 3, "m": 0, "cm": -2, "mm": -3, "um": -6, "nm": -9, "Å": -10, "A": -10, "pm": -12,
+           "fm": -15}
+# A number, or a missing one, as SurfaceTopography and the program read it; inf is missing to the one, wrong to the
+# other.
+WORD = re.compile(rb"[-+]?(?:\.?\d[-+.\dEe]*|nan)", re.IGNORECASE)
 # The head of Gwyddion's texts, whose words are those of the user's language.
 GWYDDION_TEXT = re.compile(rb"(?:\xef\xbb\xbf)?(?:# ?[^:\n]+:.*\n){3}")
 
@@ -51,15 +54,19 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
         if channel not in (None, 0):
             raise ValueError(f"there is no channel {channel!r}: such a file has one, which has no name")
         surface = Surface(names.file(file=os.path.abspath(file), **keys_of_maps).keys, None, length_unit)
-        scene_of(surface, {}, keep_fields=False)   # an error if the program cannot read it
+        try:
+            scene_of(surface, {}, keep_fields=False)   # an error if the program cannot read it
+        except ValueError as error:
+            # It sends files of instruments back to this package.
+            if "wavycon-convert" not in str(error) or not (words := refusal(file)):
+                raise
+            raise ValueError(f"{file}: SurfaceTopography cannot read it: {words}") from None
         return surface
     x, z, sides, unit = opened
-    for key, side in sides.items():
+    for key in *sides, "missing_value", "file_format", "file2":
         if keys_of_maps.get(key) is not None:
-            raise ValueError(f"{file}: leave out {key}: the file has {side:g} {unit or ''}".rstrip())
-    for key in "missing_value", "file_format", "file2":
-        if keys_of_maps.get(key) is not None:
-            raise ValueError(f"{file}: {key} is for files that the program reads: wavycon.file takes it")
+            why = f"the file has {sides[key]:g} {unit or ''}" if key in sides else "it is for wavycon.file"
+            raise ValueError(f"{file}: leave out {key}: {why}".rstrip())
     if x is None:
         return heights(z, length_unit=unit, **cast(names.Map, {**keys_of_maps, **sides}))
     tell([f"{file}: this profile has unequal steps and is resampled to equal ones"])
@@ -92,43 +99,54 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
         except (MemoryError, ValueError) as error:
             raise ValueError(f"{file}: {error}") from None
     try:
-        opened, ending = need("SurfaceTopography", "files").open_topography, Path(file).suffix[1:].lower()
+        opened = need("SurfaceTopography", "files").open_topography
     except ImportError as error:
         raise ImportError(f"{error}; without it wavycon.file reads texts of numbers") from None
     try:
         with opened(os.fspath(file)) as reader:
-            if reader.format() == "hgt" != ending:   # a format that is known by the number of bytes alone
+            # The number of bytes alone makes the one format, a name the other: of pictures that it does not know.
+            if (kind := reader.format()) == "hgt" != Path(file).suffix[1:].lower() or not reader.channels:
                 return None
             info = choose(reader.channels, channel)
-            known, kind = info.physical_sizes is not None, reader.format()
-            are_lines = kind == "asc"
+            known, are_lines = info.physical_sizes is not None, kind == "asc"
             if are_lines and GWYDDION_TEXT.match(start) and not (known and info.unit):
                 return None   # a head in another language than English, of which the reader knows some lines
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
-            if unit and not is_length(unit) and topography.unit:
-                raise NoHeights(f"{unit!r} is no unit to which SurfaceTopography converts, such as m, mm, um, nm")
-            topography = topography.to_unit(unit) if unit and topography.unit else topography
-            z: Array = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
+            own, unit = unit_name(topography.unit), unit_name(unit)
+            if unit and own and not {own, unit} <= LENGTHS.keys():
+                raise NoHeights(f"{unit!r} is no unit to which {own!r} is converted: units are {', '.join(LENGTHS)}")
+            factor = float(f"1e{LENGTHS[own] - LENGTHS[unit]}") if unit and own else 1.0
+            z: Array = factor*np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
             # NetCDF tells the order of the axes, of which the reader takes the first one for x.
             z = z.T if getattr(getattr(reader, "_heights_var", None), "dimensions", None) == ("y", "x") else z
-            x = None if topography.is_uniform else np.asarray(topography.positions())
-            sides = map(float, topography.physical_sizes if known else ())
-    except NoHeights as error:
-        raise ValueError(f"{file}: {error}") from None
+            x = None if topography.is_uniform else factor*np.asarray(topography.positions())
+            sides = [factor*float(side) for side in (topography.physical_sizes if known else ())]
     except Exception as error:
-        # Its readers raise whatever their formats bring about. Where none knows the file, one may have its ending.
-        words = f"{type(error).__name__}: {str(error).strip()}".splitlines()[:1]
-        if words[0].startswith("CannotDetectFileFormat"):
-            words = re.findall(rf"(?i)tried ({re.escape(ending)}reader: *\n.*)", str(error))
-            if not words:
-                return None
-        raise ValueError(f"{file}: SurfaceTopography cannot read it: {' '.join(words[0].split())}") from error
-    if kind in ("asc", "xyz") and is_broken(file, z.shape[1] if are_lines else 2):
-        return None   # its readers leave out lines with words, such as NA, in silence
+        # Its readers raise whatever their formats bring about.
+        if type(error).__name__ == "CannotDetectFileFormat":
+            return None
+        words = f"SurfaceTopography cannot read it: {in_line(type(error), error)}"
+        raise ValueError(f"{file}: {error if isinstance(error, NoHeights) else words}") from error
+    if kind in ("asc", "xyz") and is_broken(file, z.ndim + 1 if kind == "xyz" else z[0].size):
+        return None   # its readers leave out lines with words, such as NA, in silence, and take inf for missing
     if are_lines and not known and z.ndim == 2 and z.shape[1] == 3 and len(z) > 3:
         return None   # lines of points x, y, z with missing ones
-    # Of one name, so that length_unit="um" is that of the surface.
-    return x, z, dict(zip(("length_x", "length_y"), sides)), unit or (topography.unit or "").replace("µ", "u") or None
+    return x, z, dict(zip(SIDES, sides)), unit or own or None
+
+
+def in_line(kind: type[Any], error: Exception) -> str:
+    return " ".join(f"{kind.__name__}: {str(error).strip()}".splitlines()[0].split())
+
+
+def refusal(file: str | os.PathLike[str]) -> str | None:
+    """What the reader of SurfaceTopography for the ending of a file says of it; None without such a reader."""
+    for reader in need("SurfaceTopography.IO", "files").readers:
+        if Path(file).suffix[1:].lower() in (reader.format(), *reader.file_extensions()):
+            try:
+                reader(os.fspath(file))
+            except Exception as error:
+                return in_line(reader, error)
+    return None
 
 
 def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
@@ -137,12 +155,16 @@ def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
 
 
 def is_broken(file: str | os.PathLike[str], columns: int) -> bool:
-    """Whether some of the lines of so many words have words that are no numbers beside numbers, or below them."""
+    """Whether some of the lines of so many words have inf, or words that are no numbers beside or below numbers."""
     with open(file, "rb") as opened:
         lines = [words for line in opened if len(words := line.replace(b",", b" ").split()) == columns
                  and not words[0].startswith(b"#")]
     numbers = [sum(map(bool, map(WORD.fullmatch, words))) for words in lines]
-    return columns in numbers and (any(0 < n < columns for n in numbers) or 0 in numbers[numbers.index(columns):])
+    if columns not in numbers:
+        return False
+    first = numbers.index(columns)
+    return (any(0 < n < columns for n in numbers) or 0 in numbers[first:] or
+            any(word.lower().lstrip(b"+-") in (b"inf", b"infinity") for words in lines[:first] for word in words))
 
 
 class NoHeights(Exception):
@@ -153,15 +175,15 @@ def choose(channels: Sequence[Any], channel: str | int | None) -> Any:
     """One of the channels of a file, by its name or number; the first one of a name, and the first one of heights if
     none is given. Errors: NoHeights."""
     heights = {place: one for place, one in enumerate(channels) if has_heights(one)}
-    there_are = ", ".join(f"{place} {one.name!r}" for place, one in heights.items()) or "none"
     named = {place: one for place, one in enumerate(channels) if channel in (None, place, one.name)}
     if chosen := [one for place, one in named.items() if place in heights]:
         return chosen[0]
+    fault = f"there is no channel {'of heights' if channel is None else repr(channel)}"
     if named:
         words = ", ".join(f"the channel {place} {one.name!r} is in {unit_of(one)!r}" for place, one in named.items())
-        raise NoHeights(f"{words}, which is no length; channels of heights: {there_are}")
-    raise NoHeights(f"there is no channel {'of heights' if channel is None else repr(channel)}; channels of heights: "
-                    + there_are)
+        fault = f"{words}, which is no length ({', '.join(LENGTHS)})"
+    there_are = ", ".join(f"{place} {one.name!r}" for place, one in heights.items()) or "none"
+    raise NoHeights(f"{fault}; channels of heights: {there_are}")
 
 
 def unit_of(channel: Any) -> Any:
@@ -173,16 +195,8 @@ def unit_of(channel: Any) -> Any:
 
 def has_heights(channel: Any) -> bool:
     """Whether the values of a channel, and its sides, are lengths as far as its file tells."""
-    return all(not unit or is_length(unit) for unit in (unit_of(channel), channel.unit)) and bool(
+    return all(not unit or unit_name(unit) in LENGTHS for unit in (unit_of(channel), channel.unit)) and bool(
         getattr(channel, "is_height_channel", True))
-
-
-def is_length(unit: Any) -> bool:
-    conversion = need("SurfaceTopography.Support.UnitConversion", "files").get_unit_conversion_factor
-    try:
-        return conversion(unit, "m") is not None
-    except (TypeError, ValueError):
-        return False
 
 
 @contextlib.contextmanager
@@ -209,18 +223,16 @@ def written(path: str, begin: bytes = b"", *inputs: str) -> Iterator[IO[bytes]]:
 def write_gsf(file: IO[bytes], z: Array, sides: dict[str, float], unit: str | None) -> None:
     """Gwyddion's simple field: a head, filled with 1 to 4 null characters to a multiple of 4 bytes, and float32. The
     heights are written over their mean, which may be so large that float32 does not tell them apart."""
-    head = "Gwyddion Simple Field 1.0\n"
     lines = {"XRes": z.shape[1], "YRes": z.shape[0], "XReal": sides.get("length_x"), "YReal": sides.get("length_y"),
              "XYUnits": unit, "ZUnits": unit}
-    head += "".join(f"{name} = {value}\n" for name, value in lines.items() if value is not None)
-    start = head.encode()
-    file.write(start + bytes(4 - len(start) % 4) + (z - np.nanmean(z)).astype("<f4").tobytes())
+    told = "".join(f"{name} = {value}\n" for name, value in lines.items() if value is not None)
+    head = f"Gwyddion Simple Field 1.0\n{told}".encode()
+    file.write(head + bytes(4 - len(head) % 4) + (z - np.nanmean(z)).astype("<f4").tobytes())
 
 
 def convert(arguments: list[str] | None = None) -> None:
     """The command wavycon-convert."""
-    parser = argparse.ArgumentParser(prog="wavycon-convert", description="Converts a file of an instrument to one that "
-                                     "decks of wavycon read.")
+    parser = argparse.ArgumentParser(prog="wavycon-convert", description="Converts a file of an instrument for decks.")
     parser.add_argument("file", help="of any format that SurfaceTopography opens")
     parser.add_argument("map", help="to be written: .gsf with sides and units, heights over their mean in "
                         "single precision, .npy with all digits")
@@ -234,9 +246,9 @@ def convert(arguments: list[str] | None = None) -> None:
             surface = read(given.file, channel, length_unit=given.unit, fill_missing="harmonic")
         sys.stderr.writelines(f"wavycon-convert: note: {note.message}\n" for note in notes
                               if issubclass(note.category, Note))
-        rows, unit, kind = surface.heights, surface.length_unit, Path(given.map).suffix
-        if rows is None:
+        if surface.in_memory is None:
             raise ValueError(f"{given.file}: decks read this file as it is")
+        rows, unit, kind = surface.in_memory, surface.length_unit, Path(given.map).suffix
         sides = {key: surface.keys[key] for key in SIDES if key in surface.keys}
         if kind not in BEGINNINGS:
             raise ValueError(f"{given.map}: the name must end in .gsf or .npy")

@@ -5,6 +5,7 @@ Errors are exceptions: ValueError for what is wrong in a call, OSError for files
 import functools
 import importlib
 import json
+import re
 import sys
 import threading
 import warnings
@@ -18,36 +19,19 @@ import numpy.typing as npt
 Array: TypeAlias = npt.NDArray[np.float64]
 Rows: TypeAlias = npt.NDArray[Any]   # of tables: structured arrays
 
-TEXT, POINTER = c_char_p, c_void_p
-PROGRESS = CFUNCTYPE(c_int, POINTER, c_int, c_double)
-# Result and arguments of each function behind the error object. Functions that return pointers make objects.
-FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
-    "new_scene": (POINTER, [TEXT, TEXT, c_int, c_int, c_int, POINTER]),
-    "read_scene": (POINTER, [TEXT, TEXT, c_int]),
-    "set_progress": (c_int, [POINTER, PROGRESS, POINTER]),
-    "set_threads": (c_int, [c_int]),
-    "solve": (POINTER, [POINTER, TEXT, c_double]),
-    "solve_load": (POINTER, [POINTER, c_int]),
-    "get": (c_int, [POINTER, TEXT, POINTER]),
-    "get_text": (c_size_t, [POINTER, TEXT, POINTER, c_size_t]),
-    "new_table": (POINTER, [POINTER, TEXT]),
-    "get_column": (c_int, [POINTER, TEXT, c_int, POINTER]),
-    "get_fields": (c_int, [POINTER, c_int] + [POINTER]*5),
-    "get_grid": (c_int, [POINTER, c_int, c_int] + [POINTER]*4),
-    "get_bounds": (c_int, [POINTER, c_double, c_int, c_int] + [POINTER]*4),
-    "get_stresses": (c_int, [POINTER, c_int] + [POINTER]*3 + [c_double, TEXT] + [POINTER]*2),
-    "get_invariants": (c_int, [c_int] + [POINTER]*4),
-}
+PROGRESS = CFUNCTYPE(c_int, c_void_p, c_int, c_double)
+# Types of wavycon.h; all others are pointers, and functions that return pointers make objects.
+TYPES = {"int": c_int, "double": c_double, "size_t": c_size_t, "const char *": c_char_p, "wavycon_progress": PROGRESS,
+         "void": None}
 
 folders = map(Path, sys.modules[__package__].__path__)
-lib = CDLL(str(next(path for folder in folders for path in folder.glob("libwavycon.*"))))
-lib.wavycon_new_error.restype = POINTER
-lib.wavycon_get_code.argtypes = lib.wavycon_delete.argtypes = [POINTER]
-lib.wavycon_get_message.argtypes = [POINTER, POINTER, c_size_t]
-lib.wavycon_get_message.restype = c_size_t
-functions = {name: getattr(lib, "wavycon_" + name) for name in FUNCTIONS}
-for _name, (_result, _arguments) in FUNCTIONS.items():
-    functions[_name].restype, functions[_name].argtypes = _result, [POINTER, *_arguments]
+path = next(path for folder in folders for path in folder.glob("libwavycon.*"))
+lib = CDLL(str(path))
+header = path.with_name("wavycon.h").read_text(encoding="utf-8")
+for _result, _name, _arguments in re.findall(r"^(\w+) (wavycon_\w+)\((?:void|([^)]+))\);", header, re.MULTILINE):
+    _types = map(str.strip, re.findall(r"([^,]+?)\w+(?:,|$)", _arguments))   # of each argument, without its name
+    getattr(lib, _name).restype = TYPES.get(_result, c_void_p)
+    getattr(lib, _name).argtypes = [TYPES.get(one, c_void_p) for one in _types]
 
 
 class Note(UserWarning):
@@ -58,7 +42,7 @@ class Handle:
     """An object of the library, which ends with this one."""
 
     def __init__(self, pointer: int | None) -> None:
-        self._as_parameter_ = POINTER(pointer)
+        self._as_parameter_ = c_void_p(pointer)
 
     def __reduce__(self) -> str:
         raise TypeError("what the library holds in memory cannot be copied or pickled: make a problem in each process")
@@ -74,13 +58,14 @@ def call(name: str, *arguments: Any) -> Any:
     """Calls a function by its name without 'wavycon_', without its first argument."""
     if not hasattr(_own, "error"):
         _own.error = Handle(lib.wavycon_new_error())
-    answer = functions[name](_own.error, *arguments)
+    function = getattr(lib, f"wavycon_{name}")
+    answer = function(_own.error, *arguments)
     code = lib.wavycon_get_code(_own.error)
     if code:
         message = create_string_buffer(lib.wavycon_get_message(_own.error, None, 0))
         lib.wavycon_get_message(_own.error, message, len(message))
         raise (ValueError if code == 1 else OSError)(message.value.decode())
-    return Handle(answer) if FUNCTIONS[name][0] is POINTER else answer
+    return Handle(answer) if function.restype is c_void_p else answer
 
 
 def number(thing: Handle, name: str) -> float:
@@ -156,9 +141,9 @@ def need(name: str, extra: str) -> Any:
                           f"{package} is installed, but cannot be imported: {error}") from error
 
 
-def address(array: Array) -> int:
-    """Where the numbers of an array are; the array must outlive it."""
-    return array.ctypes.data
+def address(array: Array | None) -> int | None:
+    """Where the numbers of an array are; the array must outlive it. NULL for None."""
+    return None if array is None else array.ctypes.data
 
 
 @functools.cache

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .results import Facts, Result, Results
 
 UNRESOLVED = 4   # the status code; from 10 on loads were not solved as requested
+THICK, THIN = 0.05, 0.02   # width of a colour bar over the height of its map, and least width over that of the map
 PLACES = ("x", "y", "depth", "distance")
 
 
@@ -85,14 +86,13 @@ def plot_map(result: Result, field: Literal["pressure", "gap", "displacement", "
     ax, facts = axes(ax), result._facts
     factor, words = scaled(facts, field)
     values, (by, x), y = factor*result._fields[field], scaled(facts, "x"), scaled(facts, "y")[1]
-    ax.set_title(title(result))
     if len(values) == 1:
         ax.plot(by*result.x, values[0], **style)
-        ax.set(xlabel=x, ylabel=words)
+        ax.set(xlabel=x, ylabel=words, title=title(result))
         return ax
     if field != "displacement":
         values = np.ma.masked_equal(values, 0)   # where the bodies are apart, or touch, there is no colour
-    return mesh(ax, by*result.x, by*result.y, values, words, xlabel=x, ylabel=y, aspect="equal", style=style)
+    return mesh(result, ax, by*result.x, by*result.y, values, words, style, xlabel=x, ylabel=y, aspect="equal")
 
 
 def plot_regions(result: Result, ax: Any, style: dict[str, Any]) -> Any:
@@ -102,9 +102,9 @@ def plot_regions(result: Result, ax: Any, style: dict[str, Any]) -> Any:
     edge = facts.p_star*float(isobar[1]) if isobar else 0.0
     colours = regions.regions(result.pressure > edge, "edges = 'mirror'" in facts.deck)
     by = scaled(facts, "x")[0]
-    ax.pcolormesh(by*result.x, by*result.y, colours, **{"shading": "nearest", "rasterized": True, "vmin": 0, "cmap":
-                  need("matplotlib.colors", "plot").ListedColormap(regions.COLOURS),
-                  "vmax": len(regions.COLOURS) - 1, **style})
+    paints = need("matplotlib.colors", "plot").ListedColormap(regions.COLOURS)
+    ax.pcolormesh(by*result.x, by*result.y, colours, **{"shading": "nearest", "rasterized": True, "vmin": 0,
+                  "vmax": len(regions.COLOURS) - 1, "cmap": paints, **style})
     said: dict[str, float] = {}
     with contextlib.suppress(ValueError):   # of saved results without the table
         table = result.table("spots")
@@ -126,15 +126,16 @@ def plot_stress_section(result: Result, column: str = "von_mises", ax: Any = Non
     depth, distance = np.unique(rows["depth"]), np.unique(rows["distance"])
     (factor, words), (by, across) = scaled(facts, column), scaled(facts, "distance")
     values = factor*surfaces.column(rows, column).reshape(len(depth), len(distance))
-    ax = mesh(axes(ax), by*distance, by*depth, values, words, xlabel=across, ylabel=scaled(facts, "depth")[1],
-              style={"shading": "gouraud", **style})
-    ax.set_title(title(result))
+    ax = mesh(result, axes(ax), by*distance, by*depth, values, words, {"shading": "gouraud", **style}, xlabel=across,
+              ylabel=scaled(facts, "depth")[1])
     ax.yaxis.set_inverted(True)
     return ax
 
 
-def mesh(ax: Any, x: Any, y: Any, values: Any, words: str, *, style: dict[str, Any], **axis: Any) -> Any:
+def mesh(result: Result, ax: Any, x: Any, y: Any, values: Any, words: str, style: dict[str, Any], **axis: Any) -> Any:
     picture = ax.pcolormesh(x, y, values, **{"shading": "nearest", "rasterized": True, **style})
-    ax.figure.colorbar(picture, ax=ax, label=words)
-    ax.set(**axis)
+    # A colour bar beside the map, as high as it; matplotlib's own stands beside the place of the map, which is larger.
+    width = max(THIN, THICK*np.ptp(y)/np.ptp(x)) if axis.get("aspect") == "equal" else THICK
+    ax.figure.colorbar(picture, cax=ax.inset_axes((1 + width, 0, width, 1)), label=words)
+    ax.set(title=title(result), **axis)
     return ax

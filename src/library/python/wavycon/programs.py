@@ -134,7 +134,7 @@ def decks_of(what: Any, folder: str, options: Mapping[str, Any]) -> Iterator[tup
     surfaces = what if isinstance(what, Mapping) else dict(enumerate(what if isinstance(what, Iterable) else [what]))
     for number, (name, surface) in enumerate(surfaces.items()):
         groups = groups_of(surface, options)
-        if surface.heights is not None:
+        if surface.in_memory is not None:
             place = os.path.join(folder, f"heights{number}.npy")
             np.save(place, surface.heights)
             groups["surface"] = {**groups["surface"], "file": place}

@@ -91,9 +91,9 @@ class Result(Named, Columns[float, str]):
     contact_area_fraction, contact_area_fraction_error, status; result["mean_gap"] is the same. A copy, also by pickle,
     has the tables and fields, but cannot make others."""
 
-    def __init__(self, load: int, facts: Facts, tables: dict[str, Rows], solution: Handle | None = None,
-                 scene: Handle | None = None) -> None:
-        self._load, self._facts, self._tables, self._solution, self._scene = load, facts, tables, solution, scene
+    def __init__(self, load: int, facts: Facts, solution: Handle | None = None, scene: Handle | None = None) -> None:
+        self._load, self._facts, self._solution, self._scene = load, facts, solution, scene
+        self._tables: dict[str, Rows] = {}
         self.p_star = facts.p_star   # [pressure] mean pressure that just closes the gap everywhere
 
     def _column(self, name: str) -> Any:
@@ -199,9 +199,8 @@ class Result(Named, Columns[float, str]):
         has stress, with six components xx, yy, zz, xy, xz, yz along a last axis, stress_error, the estimate of its
         largest error, von_mises, largest_shear, and principal, three along a last axis, the largest first."""
         solution, places = self._live("stresses_at"), same_shape(x, y, depth)
-        components: dict[str, tuple[int, ...]] = {"stress": (6,), "stress_error": (), "von_mises": (),
-                                                  "largest_shear": (), "principal": (3,)}
-        parts = {name: np.empty(places[0].shape + axis) for name, axis in components.items()}
+        components = {"stress": [6], "stress_error": [], "von_mises": [], "largest_shear": [], "principal": [3]}
+        parts = {name: np.empty([*places[0].shape, *axis]) for name, axis in components.items()}
         stress, error, *invariants = map(address, parts.values())
         if nu is None:
             if not (found := re.search(r"(?:&stress[^&]*\n +nu|\n +nu1) = (\S+)", self._facts.deck)):
@@ -391,12 +390,11 @@ class Results(Named, Facts, Columns[Array, npt.NDArray[np.str_]], Sequence[Resul
                                  "to_dataframe(units=True).to_csv() writes tables with commas")
             path += ".npz"
         with written(path, b"\x89HDF" if path.endswith(HDF5) else b"PK") as opened:
-            if path.endswith(".npz"):
+            if path.endswith(HDF5):
+                with need("h5py", "h5").File(opened.name, "w") as saved:
+                    saved.update({name: retyped(values, "<U", "|S") for name, values in content.items()})
+            else:
                 np.savez(opened, **content)
-                return
-            with need("h5py", "h5").File(opened.name, "w") as saved:
-                for name, values in content.items():
-                    saved[name] = retyped(values, "<U", "|S")
 
 
 def load(file: str | os.PathLike[str] | IO[bytes]) -> Results:
@@ -421,7 +419,7 @@ def load(file: str | os.PathLike[str] | IO[bytes]) -> Results:
     facts, loads = Facts(**{**told, "units": Units(told["units"])}), dict[int, Result]()
     for name, values in content.items():
         number, table, *field = name.split("/")
-        one = loads.setdefault(int(number), Result(int(number), facts, {}))
+        one = loads.setdefault(int(number), Result(int(number), facts))
         if field:
             one.__dict__.setdefault("_fields", {})[field[0]] = locked(values)
         else:

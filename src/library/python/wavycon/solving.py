@@ -10,14 +10,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import library
-from .deck import dictionary, groups_of, scene_of, value_text
+from .deck import NEAR, dictionary, groups_of, scene_of, value_text
 from .library import Handle, address, call, keys, one_number, reals
 from .names import Load, Options, Settings, Unpack
 from .progress import Watch
 from .results import Facts, Result, Results, note_news
 from .surfaces import SIDES, Surface
-
-NEAR = 1e-3   # steps by which places of points may be off, which may have been computed in single precision
 
 
 def solve(surface: Surface, *, keep_fields: bool = True, progress: bool = True, **options: Unpack[Options]) -> Results:
@@ -77,8 +75,7 @@ def certify(surface: Surface, pressure: npt.ArrayLike | Result, gap: npt.ArrayLi
             side = library.number(scene, SIDES[axis])
             steps = reals(places)*points/side
             if steps.shape != (points,) or abs(steps - steps[0] - np.arange(points)).max() > NEAR:
-                raise ValueError(f"{'xy'[axis]} must have the places of {points} points, at equal steps over the whole "
-                                 f"side {side:g}")
+                raise ValueError(f"{'xy'[axis]} must be {points} places at equal steps over the whole side {side:g}")
             offset[axis] = steps[0]
     call("get_bounds", scene, mean_pressure, *p.shape[::-1], None if x is y is None else address(offset),
          *map(address, (p, g, bounds)))
@@ -169,7 +166,7 @@ def solve_all(scene: Handle, facts: Facts, order: Sequence[int], progress: bool,
     with Watch(scene, len(order) if progress else 0) as watch:
         for number in order:
             if not watch.is_stopped:
-                loads[number] = Result(number, facts, {}, solve_one(scene, number), scene)
+                loads[number] = Result(number, facts, solve_one(scene, number), scene)
                 watch.solved += 1
     for one in loads.values():
         one.table("summary")   # which tells the units

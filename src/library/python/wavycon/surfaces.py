@@ -6,14 +6,14 @@ import dataclasses
 import difflib
 import functools
 import inspect
+import unicodedata
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, ParamSpec
 
 import numpy as np
-import numpy.typing as npt
 
-from .library import Rows, address, call, keys, number, tell, text
+from .library import Array, Rows, address, call, keys, number, tell, text
 
 FEW = 30          # names that a message lists
 MOST = 3          # names that a message proposes
@@ -28,26 +28,35 @@ Parameters = ParamSpec("Parameters")
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Surface:
-    """A surface: keys of &surface, heights in memory, and the unit of length of its file, if it names one.
+    """A surface: keys of &surface, heights, and the unit of length of its file, if it names one.
 
     Two surfaces of maps make one, which has the sum of their heights: first + second.flipped()."""
 
     keys: dict[str, Any]
-    heights: npt.NDArray[np.float64] | None = None
-    length_unit: str | None = None
+    in_memory: Array | None = None   # heights
+    length_unit: str | None = None   # with µ as u: of one name
     __array_ufunc__ = None   # array + surface is an error of __radd__, not of each number
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "length_unit", unit_name(self.length_unit))
+
     def __repr__(self) -> str:
-        shape = "" if self.heights is None else f"array of shape {self.heights.shape}, "
+        shape = "" if self.in_memory is None else f"array of shape {self.in_memory.shape}, "
         return f"Surface({shape}{', '.join(f'{key}={value!r}' for key, value in self.keys.items())})"
 
     def __getattr__(self, name: str) -> Any:
         """A key that is given, such as length_x."""
         if name not in (own := self.__dict__.get("keys", ())):
-            remedy = "; prepared() reads its file"*(self.__dict__.get("heights") is None and "file" in own)
-            raise AttributeError(f"this surface has no {name!r}; it has {', '.join(('heights', 'length_unit', *own))}"
-                                 + remedy)
+            remedy = "; prepared() reads its file"*(self.__dict__.get("in_memory") is None and "file" in own)
+            known = ", ".join(("heights", "length_unit", *own))
+            raise AttributeError(f"this surface has no {name!r}; it has {known}{remedy}")
         return own[name]
+
+    @functools.cached_property
+    def heights(self) -> Array:
+        """[length] The heights of a map, shape (y, x): those in memory, NaN where they are missing; of a file that the
+        program reads those of prepared(). Errors: ValueError as of prepared."""
+        return self.prepared().heights if self.in_memory is None else self.in_memory
 
     def prepared(self) -> Surface:
         """The map as it is solved, its heights in memory: read, without its trend, filled, filtered. Of its keys the
@@ -56,7 +65,7 @@ class Surface:
         if self.keys.get("kind") != "file":
             raise ValueError("only maps are prepared, turned over and added; results.surface has the heights of others")
         own = {key: value for key, value in self.keys.items() if key in (*SIDES, "edges") and value != "window"}
-        if self.heights is not None and len(own) == len(self.keys) - len(("kind", "file")):
+        if self.in_memory is not None and len(own) == len(self.keys) - len(("kind", "file")):
             return self
         scene = scene_of(self, {}, keep_fields=False)
         tell(text(scene, "notes").splitlines())
@@ -67,43 +76,41 @@ class Surface:
         # Sides that are assumed remain where they have a meaning: for cut-offs and radii.
         if number(scene, "has_sides") or any(key.startswith(("short_", "long_", "form_")) for key in self.keys):
             own |= {side: number(scene, side) for side in SIDES[:1 if len(heights) == 1 else 2]}
-        unit = text(scene, "length_unit").replace("µ", "u")   # of one name, as in read
+        unit = text(scene, "length_unit")
         return Surface({"kind": "file", "file": "heights", **own}, heights, None if unit == "length" else unit)
 
     def flipped(self) -> Surface:
         """The map turned over about the y axis, as that of the second body is when it is laid on the first one: the
         last point along x becomes the first. Its heights still rise out of their body. A file is prepared before."""
-        whole = self if self.heights is not None else self.prepared()
-        return dataclasses.replace(whole, heights=np.flip(np.asarray(whole.heights), 1).copy())
+        whole = self if self.in_memory is not None else self.prepared()
+        return dataclasses.replace(whole, in_memory=np.flip(whole.heights, 1).copy())
 
     def __add__(self, other: Surface) -> Surface:
         """The surface of two bodies: the sum of two maps, each prepared before by its own keys. Errors: ValueError for
         points, sides, edges and units that are not the same."""
         if not isinstance(other, Surface):
-            raise TypeError(f"a surface and {type(other).__name__} cannot be added: wavycon.heights makes a surface of "
-                            "an array")
-        maps = [one if one.heights is not None else one.prepared() for one in (self, other)]
+            raise TypeError(f"a surface and {type(other).__name__} cannot be added: wavycon.heights takes an array")
+        maps = [one if one.in_memory is not None else one.prepared() for one in (self, other)]
         # A map without sides or unit has those of the other one. A file that has sides refuses others.
         for place, (one, more) in enumerate(zip((self, other), maps[::-1])):
             sides = {side: more.keys[side] for side in SIDES if side in more.keys}
-            if one.heights is None and any(maps[place].keys.get(side) != sides[side] for side in sides):
+            if one.in_memory is None and any(maps[place].keys.get(side) != sides[side] for side in sides):
                 with contextlib.suppress(ValueError):
                     maps[place] = dataclasses.replace(one, keys={**sides, **one.keys}).prepared()
             own = maps[place]
             maps[place] = Surface({**sides, **own.keys}, own.heights, own.length_unit or more.length_unit).prepared()
-        first, second = (np.asarray(one.heights) for one in maps)
-        facts: list[dict[str, Any]] = [{"shape": np.asarray(one.heights).shape, "length_unit": one.length_unit,
+        facts: list[dict[str, Any]] = [{"shape": one.heights.shape, "length_unit": one.length_unit,
                                         "edges": "periodic", **dict.fromkeys(SIDES), **one.keys} for one in maps]
-        points = dict(zip(SIDES, first.shape[::-1]))
+        points = dict(zip(SIDES, maps[0].heights.shape[::-1]))
+        convert = "; read(file, length_unit=...) converts a file, heights(factor*h, length_unit=...) an array"
         for name in "shape", "length_unit", *SIDES, "edges":
             own, others = (one[name] for one in facts)
             # Sides of instruments may differ by half a step.
             is_near = name in points and (None in (own, others) or 2*points[name]*abs(own - others) <= own)
             if own != others and not is_near:
                 raise ValueError(f"two maps must have the same {name}, got {own!r} and {others!r}"
-                                 + ("; read(file, length_unit=...) converts a file, heights(factor*h, length_unit=...) "
-                                    "an array")*(name == "length_unit"))
-        return Surface({**maps[1].keys, **maps[0].keys}, first + second, maps[0].length_unit)
+                                 + convert*(name == "length_unit"))
+        return Surface({**maps[1].keys, **maps[0].keys}, maps[0].heights + maps[1].heights, maps[0].length_unit)
 
     __radd__ = __add__
 
@@ -118,6 +125,11 @@ def maker(function: Callable[Parameters, Surface]) -> Callable[Parameters, Surfa
         return Surface({**function(*none, **given).keys, **{key: one for key, one in given.items() if one is not None}})
 
     return make
+
+
+def unit_name(unit: Any) -> Any:
+    """The one name of a unit that has several: µ, the sign and the Greek letter, is u; the angstrom is a letter."""
+    return unicodedata.normalize("NFKC", unit).replace("\u03bc", "u") if isinstance(unit, str) else unit
 
 
 def check_names(function: str, given: Iterable[str], known: Iterable[str]) -> None:
