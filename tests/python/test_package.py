@@ -506,6 +506,20 @@ class Certify(PackageTest):
                          numpy.linspace(0, 2, 40), "at most a step": numpy.arange(40)/20 - 1}.items():
             self.refuse(words, wc.certify, surface, p, g, x=x, **load)
 
+    def test_a_load_without_conversion(self):
+        """By its load over p*, and by a result alone, also a saved one, whose title names the group."""
+        wave = wc.wave_2d(amplitude=1e-6, wavelength=1e-3)
+        for material in ({"e_star": 2e11}, {"e1": 2e11, "nu1": 0.3, "hardness": 1e10},
+                         {"e1": 2e11, "nu1": 0.3, "layer_thickness": 1e-3, "layer_base": "bonded"}):
+            results = wc.solve(wave, title="&material e_star = 1", mean_pressure=[1e7, 1e8], **material)
+            results.save("run.npz")
+            for one in results[0], wc.load("run.npz")[0]:
+                expected = wc.certify(wave, one, mean_pressure=1e7, **material)
+                ratio = wc.certify(wave, one.pressure, one.gap, x=one.x, y=one.y, pbar_over_pstar=one.pbar_over_pstar,
+                                   **material)
+                for found in wc.certify(wave, one), wc.certify(wave, one, **material), ratio:
+                    numpy.testing.assert_allclose(found, expected, rtol=1e-12)
+
     def test_what_is_wrong_is_wide(self):
         load = {"e_star": 2, "mean_pressure": 0.5, "residual": 1e-11}
         for edges in "periodic", "mirror":
@@ -575,7 +589,8 @@ class Certify(PackageTest):
         refuse("1 point along y", surface=wc.wave_1d())
         refuse("must be a surface", surface=p)
         refuse("did you mean 'e_star'", e_sta=1)
-        refuse("", pbar_over_pstar=1)
+        refuse("contradict each other", pbar_over_pstar=1)
+        refuse("must be one number", mean_pressure=None, pbar_over_pstar=[1])
 
 
 class Sweeps(PackageTest):
