@@ -785,6 +785,9 @@ except ImportError as error: print(error)"""
             self.refuse("", wc.solve, wave, pbar_over_pstar=bad)
         self.refuse("control characters", wc.solve, wave, pbar_over_pstar=0.1, title="a\n/ &load mean_gap = 1 /")
         self.refuse("control characters", wc.solve, wave, pbar_over_pstar=0.1, title="a\0b")
+        (self.folder/"cut.nml").write_text("&surface kind = 'wave_1d' / &load pbar_over_pstar = 0.1 /")
+        self.refuse("null character", wc.run, "cut.nml\0b")
+        self.refuse("null character", wc.solve(wave, pbar_over_pstar=0.1)[0].table, "spots\0b")
         self.assertIn("it''s 'µ'".replace("''", "'"), wc.solve(wave, pbar_over_pstar=0.1, title="it's 'µ'").deck
                       .replace("''", "'"))
         for number in numpy.float32(0.25), numpy.int64(0), 1, range(2), (0.1, numpy.float64(0.2)), numpy.array(0.25), \
