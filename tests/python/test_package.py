@@ -278,6 +278,25 @@ class Digits(PackageTest):
             pressures.append(one.pressure.tolist())
         self.assertEqual(pressures[:1]*3, pressures)
 
+    def test_a_profile_at_its_places(self):
+        """As the program reads it from a file, and at equal steps as without places."""
+        x = numpy.cumsum(1 + 0.5*numpy.sin(numpy.arange(60)**2))
+        z = numpy.cos(2*numpy.pi*x/x[-1]) + 0.1*x
+        numpy.savetxt("xz.txt", numpy.column_stack([x, z]), fmt="%.17g")
+        keys = {"detrend": "plane", "edges": "mirror"}
+        expected = wc.file(file="xz.txt", **keys).prepared()
+        for places, heights in (x, z), (x[::-1], z[::-1, None]):
+            found = wc.heights(heights, x=places, length_unit="um", **keys)
+            numpy.testing.assert_array_equal(expected.heights, found.heights)
+            self.assertEqual({**expected.keys, "unit": "um"}, {**found.keys, "unit": found.length_unit})
+        even = wc.heights(z, x=numpy.arange(60)/20)
+        self.assertAlmostEqual(3, even.length_x)
+        numpy.testing.assert_allclose(even.heights[0] - even.heights[0, 0], z - z[0], atol=1e-14)
+        self.refuse("^x:3: x = 2 after 3: from line to line x must rise", wc.heights, [1, 2, 1.0, 3], x=[1, 3, 2, 4])
+        self.refuse("x must have the places of all points of a profile, got .3,. for .1, 4.", wc.heights, [1, 2, 1, 3],
+                    x=[1, 2, 3])
+        self.refuse("x must have the places", wc.heights, numpy.eye(4), x=[1, 2, 3, 4])
+
     def test_files_that_need_no_other_package(self):
         h = numpy.random.default_rng(1).normal(size=(12, 16))
         numpy.save("map.npy", h)
