@@ -8,6 +8,7 @@ module wavycon_c_functions
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_reference, only: key_json
    use wavycon_kinds, only: dp
+   use wavycon_nearest_name, only: did_you_mean
    use wavycon_run_scene, only: run_deck
    use wavycon_session_fields, only: bounds_from_fields, check_number, fields_at, fields_on_grid, map_grid, &
       own_points, stresses_at, stresses_on_plane
@@ -214,7 +215,8 @@ contains
       if (this%begins(error, table, 'table', 'wavycon_get_column name values', [present(name), present(values)])) then
          column = this%contents%table%find_column(text_at(name))
          if (column == 0) then
-            call fatal_error(this%trouble, exit_bad_input, "the table has no column '"//text_at(name)//"'")
+            call fatal_error(this%trouble, exit_bad_input, "the table has no column '"//text_at(name)//"'"// &
+                             did_you_mean(text_at(name), this%contents%table%columns%name, "'", "'"))
          else if (rows /= this%contents%table%rows) then
             call fatal_error(this%trouble, exit_bad_input, 'rows is not the number of rows of the table')
          else

@@ -76,6 +76,7 @@ module wavycon_deck_session
       !> Whether it solves for a table, from the one element of `results%loads`: other threads then must not use the
       !> session.
       logical, private :: is_for_table = .false.
+      integer, private :: identity = 0                    !! number of the session, from 1; its loads have it too
    contains
       procedure :: open => open_session
       procedure :: open_file, solve, solve_load, make_table, number, text
@@ -84,6 +85,7 @@ module wavycon_deck_session
 
    !> A load that a session has solved, with data that further calls may need again.
    type :: solved_load
+      integer, private :: of_session = 0              !! identity of this session: another one may have other units
       type(contact_solution), allocatable :: solution
       real(dp) :: mean_pressure = 0.0_dp              !! [pressure]
       integer :: loads_by = by_pressure               !! how the load was given: by_pressure or another of the scene
@@ -94,6 +96,8 @@ module wavycon_deck_session
       class(contact_fields), allocatable :: fields    !! made at their first use
       class(stress_fields), allocatable :: stresses   !! made at their first use
    end type solved_load
+
+   integer :: sessions = 0   ! that were opened so far
 
 contains
 
@@ -130,6 +134,8 @@ contains
             'are those without adhesion; the table adhesion has the contacts with it')
          self%scale = scale_of(self%results%solver%surface, scene%e_star)
       end associate
+      sessions = sessions + 1
+      self%identity = sessions
    end subroutine open_session
 
    !> Reads a deck from its file, with keys set in place of its own. Errors: those of the program.
@@ -253,6 +259,7 @@ contains
       end if
       if (allocated(error)) return
       allocate (answer%solution)
+      answer%of_session = self%identity
       answer%loads_by = loads_by
       answer%target = target(load)
       if (begin_solve(self%is_solving) /= 0) call fatal_error(error, exit_bad_input, in_callback)
@@ -471,7 +478,7 @@ contains
       if (.not. allocated(words)) call fatal_error(error, exit_bad_input, "there is no text '"//name//"'")
    end subroutine text
 
-   !> Checks that a session is open and, if a load is needed, that it was solved. Waits until no other thread makes a
+   !> Checks that a session is open and, if a load is needed, that it has solved it. Waits until no other thread makes a
    !> table from solutions of its own. Errors: exit_bad_input, also in a callback of such a table.
    subroutine check_ready(self, error, solved)
       class(deck_session), intent(in) :: self
@@ -481,8 +488,11 @@ contains
       if (.not. allocated(self%results%solver)) then
          call fatal_error(error, exit_bad_input, 'the session is not open')
       else if (present(solved)) then
-         if (.not. allocated(solved%solution)) &
+         if (.not. allocated(solved%solution)) then
             call fatal_error(error, exit_bad_input, 'there is no solution: no load has been solved')
+         else if (solved%of_session /= self%identity) then
+            call fatal_error(error, exit_bad_input, 'another session has solved this load: ask that one')
+         end if
       end if
       if (allocated(error) .or. .not. self%is_for_table) return
       if (await_solve(self%is_solving) /= 0) call fatal_error(error, exit_bad_input, in_callback)

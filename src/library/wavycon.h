@@ -81,8 +81,8 @@ wavycon_scene wavycon_read_scene(wavycon_error error, const char *path, const ch
 
 /* A function that the solver calls: with iterations = 0 before each load that it solves, also those of a search, and in
    each iteration on a grid. Where coarser grids are solved first, iterations begin at 0 on each of them.
-   data: the argument of wavycon_set_progress. residual: root mean square of the violated conditions over the mean gap
-   before load. If the function returns nonzero the load ends with the status "interrupted", and the scene can solve the
+   data: the argument of wavycon_set_progress. residual: that of the key and of the summary, root mean square of the
+   violated conditions over the mean gap, but at most 1, as before a load. If the function returns nonzero the load ends with the status "interrupted", and the scene can solve the
    next load. The function may call the library, but not with this scene. */
 typedef int (*wavycon_progress)(void *data, int iterations, double residual);
 

@@ -256,6 +256,10 @@ static void names(wavycon_scene scene, wavycon_solution solution, wavycon_table 
     REFUSED(wavycon_get_column(error, (wavycon_table)scene, "load", 1, column));
     IS_NULL(wavycon_get_column(error, table, NULL, 1, column), "wavycon_get_column: name");
     REFUSED(wavycon_get_column(error, table, "stress", 1, column));
+    REFUSED(wavycon_get_column(error, table, "perimetre", 1, column));
+    check(has_message("the table has no column 'perimetre'; did you mean 'perimeter'?"), "the nearest column", __LINE__);
+    REFUSED(wavycon_get(error, solution, "area", &value));
+    check(has_message("there is no number 'area'; did you mean 'contact_area'?"), "the nearest number", __LINE__);
     IS_NULL(wavycon_get_column(error, table, "load", 1, NULL), "wavycon_get_column: values");
     const int bad_rows[] = {0, 2, -1, 2147483647};
     for (size_t i = 0; i < COUNT(bad_rows); i++)

@@ -294,6 +294,25 @@ class Digits(PackageTest):
             pressures.append(one.pressure.tolist())
         self.assertEqual(pressures[:1]*3, pressures)
 
+    def test_a_profile_at_its_places(self):
+        """As the program reads it from a file, and at equal steps as without places."""
+        x = numpy.cumsum(1 + 0.5*numpy.sin(numpy.arange(60)**2))
+        z = numpy.cos(2*numpy.pi*x/x[-1]) + 0.1*x
+        numpy.savetxt("xz.txt", numpy.column_stack([x, z]), fmt="%.17g")
+        keys = {"detrend": "plane", "edges": "mirror"}
+        expected = wc.file(file="xz.txt", **keys).prepared()
+        for places, heights in (x, z), (x[::-1], z[::-1, None]):
+            found = wc.heights(heights, x=places, length_unit="um", **keys)
+            numpy.testing.assert_array_equal(expected.heights, found.heights)
+            self.assertEqual({**expected.keys, "unit": "um"}, {**found.keys, "unit": found.length_unit})
+        even = wc.heights(z, x=numpy.arange(60)/20)
+        self.assertAlmostEqual(3, even.length_x)
+        numpy.testing.assert_allclose(even.heights[0] - even.heights[0, 0], z - z[0], atol=1e-14)
+        self.refuse("^x:3: x = 2 after 3: from line to line x must rise", wc.heights, [1, 2, 1.0, 3], x=[1, 3, 2, 4])
+        self.refuse("x must have the places of all points of a profile, got .3,. for .1, 4.", wc.heights, [1, 2, 1, 3],
+                    x=[1, 2, 3])
+        self.refuse("x must have the places", wc.heights, numpy.eye(4), x=[1, 2, 3, 4])
+
     def test_files_that_need_no_other_package(self):
         h = numpy.random.default_rng(1).normal(size=(12, 16))
         numpy.save("map.npy", h)
@@ -537,6 +556,20 @@ class Certify(PackageTest):
                          numpy.linspace(0, 2, 40), "at most a step": numpy.arange(40)/20 - 1}.items():
             self.refuse(words, wc.certify, surface, p, g, x=x, **load)
 
+    def test_a_load_without_conversion(self):
+        """By its load over p*, and by a result alone, also a saved one, whose title names the group."""
+        wave = wc.wave_2d(amplitude=1e-6, wavelength=1e-3)
+        for material in ({"e_star": 2e11}, {"e1": 2e11, "nu1": 0.3, "hardness": 1e10},
+                         {"e1": 2e11, "nu1": 0.3, "layer_thickness": 1e-3, "layer_base": "bonded"}):
+            results = wc.solve(wave, title="&material e_star = 1", mean_pressure=[1e7, 1e8], **material)
+            results.save("run.npz")
+            for one in results[0], wc.load("run.npz")[0]:
+                expected = wc.certify(wave, one, mean_pressure=1e7, **material)
+                ratio = wc.certify(wave, one.pressure, one.gap, x=one.x, y=one.y, pbar_over_pstar=one.pbar_over_pstar,
+                                   **material)
+                for found in wc.certify(wave, one), wc.certify(wave, one, **material), ratio:
+                    numpy.testing.assert_allclose(found, expected, rtol=1e-12)
+
     def test_what_is_wrong_is_wide(self):
         load = {"e_star": 2, "mean_pressure": 0.5, "residual": 1e-11}
         for edges in "periodic", "mirror":
@@ -606,7 +639,8 @@ class Certify(PackageTest):
         refuse("1 point along y", surface=wc.wave_1d())
         refuse("must be a surface", surface=p)
         refuse("did you mean 'e_star'", e_sta=1)
-        refuse("", pbar_over_pstar=1)
+        refuse("contradict each other", pbar_over_pstar=1)
+        refuse("must be one number", mean_pressure=None, pbar_over_pstar=[1])
 
 
 class Sweeps(PackageTest):
@@ -813,6 +847,9 @@ except ImportError as error: print(error)"""
             self.refuse("", wc.solve, wave, pbar_over_pstar=bad)
         self.refuse("control characters", wc.solve, wave, pbar_over_pstar=0.1, title="a\n/ &load mean_gap = 1 /")
         self.refuse("control characters", wc.solve, wave, pbar_over_pstar=0.1, title="a\0b")
+        (self.folder/"cut.nml").write_text("&surface kind = 'wave_1d' / &load pbar_over_pstar = 0.1 /")
+        self.refuse("null character", wc.run, "cut.nml\0b")
+        self.refuse("null character", wc.solve(wave, pbar_over_pstar=0.1)[0].table, "spots\0b")
         self.assertIn("it''s 'µ'".replace("''", "'"), wc.solve(wave, pbar_over_pstar=0.1, title="it's 'µ'").deck
                       .replace("''", "'"))
         for number in numpy.float32(0.25), numpy.int64(0), 1, range(2), (0.1, numpy.float64(0.2)), numpy.array(0.25), \

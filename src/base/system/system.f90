@@ -176,13 +176,14 @@ contains
    end function full_path
 
    !> Whether a path names nothing, a directory, a file or a pipe or device; path_unknown if the system reports an
-   !> error.
+   !> error. A null character, at which the system would cut the path, is in no name.
    integer function path_kind(path)
       character(*), intent(in) :: path
 
       integer(c_int64_t) :: ignored
 
-      path_kind = int(c_path_kind(path//c_null_char, ignored))
+      path_kind = path_absent
+      if (index(path, c_null_char) == 0) path_kind = int(c_path_kind(path//c_null_char, ignored))
    end function path_kind
 
    !> Size of a file [byte]; -1 if there is no file.

@@ -68,7 +68,8 @@ contains
       if (is_plate) state%part_of_free_gap = real(believed_overlap, sp)
       iterations = 0
       do while (state%residual > part*state%scale .and. iterations < most_iterations)
-         if (present(progress)) grid%interrupted = progress%shall_stop(iterations, state%residual)
+         if (present(progress)) grid%interrupted = progress%shall_stop(iterations, &
+            state%residual/max(state%residual, grid%size_of_gaps() - state%scale*state%approach))   ! (C9)
          if (grid%interrupted) return
          iterations = iterations + 1
          if (state%residual > wandering_growth*state%scale) state%part_of_free_gap = real(believed_overlap, sp)

@@ -29,7 +29,8 @@ contains
    logical function shall_stop(self, iterations, residual)
       class(solver_progress), intent(in) :: self
       integer, intent(in) :: iterations    !! iterations of this correction of the pressure so far; 0 before a load
-      real(dp), intent(in) :: residual     !! root mean square of the violated conditions [Delta]; 1 before a load
+      !> Residual (C9), at most 1: before a load, and as long as the violated conditions are larger than the mean gap.
+      real(dp), intent(in) :: residual
 
       associate (unused => self, unused_too => iterations, also_unused => residual); end associate
       shall_stop = .false.

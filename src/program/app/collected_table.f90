@@ -1,5 +1,5 @@
 !> The collected table that --table asks for: a row for each load of each deck, with the columns of the summary. The
-!> rows are read from the summaries that the runs have written.
+!> rows are read from the summaries that the runs have written. A deck that has failed has one row.
 module wavycon_collected_table
    use, intrinsic :: iso_c_binding, only: c_null_char
    use wavycon_deck_groups, only: list_deck_keys => list_keys, number_of_groups
@@ -7,7 +7,7 @@ module wavycon_collected_table
    use wavycon_file_bytes, only: read_file
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: integer_value, real_value
-   use wavycon_memory_table, only: column_list, column_type, longest_column
+   use wavycon_memory_table, only: column_list, column_type, longest_column, of_words
    use wavycon_output_file, only: blank_mark, output_file, table_mark
    use wavycon_plain_text, only: escaped, lower_case, newline, replaced
    use wavycon_scene, only: scene_type
@@ -45,7 +45,8 @@ module wavycon_collected_table
       character(:), allocatable :: path, case    !! path of the deck; name of the case
       !> The absolute path of the deck's results without '.summary.dat' and other endings; not allocated for a bad deck.
       character(:), allocatable :: stem
-      logical :: is_written = .false.            !! whether this run has written the summary
+      logical :: is_written = .false.            !! whether this run has written the summary; .false.: it has failed
+      integer :: loads = 0                       !! number of loads
       type(deck_key), allocatable :: keys(:)     !! all keys, in the same order for each deck
       character(:), allocatable :: units, names  !! lines of the summary with the units and the names of the columns
       character(:), allocatable :: rows          !! the summary's rows, each with a newline
@@ -91,11 +92,13 @@ contains
 
    !> Lists all keys with their values, in the same order for all decks. Keys of &scene, &interface and &output, and
    !> lists of loads, which have a row for each load, are marked as without effect: they get no columns.
-   subroutine list_keys(scene, keys)
+   subroutine list_keys(scene, keys, settings)
       type(scene_type), intent(in), target :: scene   !! the scene of a deck
       type(deck_key), allocatable, intent(out) :: keys(:)
+      !> Of a bad deck: the settings of its run, whose values are all that is shown of it.
+      type(setting_type), intent(in), optional :: settings(:)
 
-      integer :: i, k, number
+      integer :: i, k, number, s
       type(key_list) :: lists(number_of_groups)
 
       call list_deck_keys(scene, lists)
@@ -112,7 +115,14 @@ contains
                                   (lists(i)%name /= 'stress' .or. lists(i)%group%position > 0)
                listed%word = '-'
                if (any(key%kind == [real_value, integer_value])) listed%word = 'NaN'
-               if (listed%in_effect) listed%word = word_of(lists(i), k)
+               if (present(settings)) then
+                  s = findloc([(settings(s)%group//'_'//settings(s)%key == listed%name, s=1, size(settings))], &
+                              .true., dim=1)
+                  listed%in_effect = listed%in_effect .and. s > 0
+                  if (s > 0) listed%word = escaped(settings(s)%value)
+               else if (listed%in_effect) then
+                  listed%word = word_of(lists(i), k)
+               end if
             end associate
          end do
       end do
@@ -138,9 +148,11 @@ contains
    !> between decks. A deck in which the key has no effect has NaN in the column, or '-' in place of a word. The unit of
    !> a column is that of the summaries if it is the same in all of them, otherwise a general name such as 'length'.
    !>
+   !> A deck that has failed has one row, with 'failed' for its status.
+   !>
    !> A file whose name ends in '.csv' has one line of names, with their units in brackets, and commas between words.
    !>
-   !> Errors: exit_file_trouble, also for a summary that cannot be read.
+   !> Errors: exit_file_trouble, also for a summary that cannot be read or, kept by --resume, is damaged.
    subroutine write_collected_table(path, decks, settings, error)
       character(*), intent(in) :: path                !! path of the table
       type(collected_deck), intent(in) :: decks(:)
@@ -152,20 +164,21 @@ contains
       character(longest_column), allocatable :: general(:)   ! units of the summary's columns by their general names
       integer, allocatable :: columns(:), width(:)
       type(column_type), allocatable :: common(:), own(:)    ! columns with the units of all summaries; of one
-      type(collected_deck), allocatable :: solved(:)   ! the decks that have a summary
+      type(collected_deck), allocatable :: shown(:)   ! the decks with their rows
       type(output_file) :: file
-      integer :: d, k
+      integer :: d, k, one   ! one: number of a deck that has a summary, or 0
 
-      allocate (solved(count(decks%is_written)))
-      solved = decks(pack([(d, d=1, size(decks))], decks%is_written))
-      call choose_columns(solved, settings, columns)
+      one = findloc(decks%is_written, .true., dim=1)
+      call choose_columns(decks(pack([(d, d=1, size(decks))], decks%is_written .or. one == 0)), settings, columns)
       allocate (width(2 + size(columns)), source=narrowest)
-      do d = 1, size(solved)
-         call read_summary(solved(d), error)
+      shown = decks
+      do d = 1, size(shown)
+         if (shown(d)%is_written) call read_summary(shown(d), error)
          if (allocated(error)) return
-         width(:2) = max(width(:2), [len(escaped(solved(d)%path)), len(solved(d)%case)] + 1)
+         if (.not. allocated(shown(d)%case)) shown(d)%case = '-'
+         width(:2) = max(width(:2), [len(escaped(shown(d)%path)), len(shown(d)%case)] + 1)
          do k = 1, size(columns)
-            associate (key => solved(d)%keys(columns(k)))
+            associate (key => shown(d)%keys(columns(k)))
                width(2 + k) = max(width(2 + k), len(key%word) + 1, len_trim(key%name) + 1)
             end associate
          end do
@@ -174,17 +187,18 @@ contains
       units = ''
       common = column_list(summary_columns())
       general = common%unit
-      do d = 1, size(solved)
-         own = column_list(solved(d)%units)
+      do d = 1, size(shown)
+         if (.not. shown(d)%is_written) cycle
+         own = column_list(shown(d)%units)
          if (size(own) /= size(common)) cycle   ! of another version, which --resume has kept
-         if (d == 1) common%unit = own%unit
+         if (d == one) common%unit = own%unit
          where (own%unit /= common%unit) common%unit = general
       end do
       do k = 1, size(common)
          names = names//' '//trim(common(k)%name)
          units = units//' ['//trim(common(k)%unit)//']'
       end do
-      if (size(solved) > 0) names = solved(1)%names
+      if (one > 0) names = shown(one)%names
       if (has_commas(path)) then
          blank = blank_mark
          call file%open(comma_path=path)
@@ -204,16 +218,17 @@ contains
       call file%put('#'//units)
       line = cell(1, 'deck')//cell(2, 'case')
       do k = 1, size(columns)
-         line = line//cell(2 + k, trim(solved(1)%keys(columns(k))%name))
+         line = line//cell(2 + k, trim(shown(1)%keys(columns(k))%name))
       end do
       call file%put_words(line//names, units)
-      do d = 1, size(solved)
-         line = cell(1, escaped(solved(d)%path))//cell(2, solved(d)%case)
+      do d = 1, size(shown)
+         line = cell(1, escaped(shown(d)%path))//cell(2, shown(d)%case)
          do k = 1, size(columns)
-            line = line//cell(2 + k, solved(d)%keys(columns(k))%word)
+            line = line//cell(2 + k, shown(d)%keys(columns(k))%word)
          end do
+         if (.not. shown(d)%is_written) shown(d)%rows = failed_row(names, common)//newline
          ! All rows of a summary are as long as its line of names.
-         associate (rows => solved(d)%rows, length => len(solved(d)%names))
+         associate (rows => shown(d)%rows, length => len(names))
             do k = 1, len(rows), length + 1
                call file%put_words(line//rows(k:k + length - 1))
             end do
@@ -234,6 +249,25 @@ contains
 
    end subroutine write_collected_table
 
+   !> The row of a deck that has failed: NaN, and '-' for words but its status.
+   pure function failed_row(names, columns) result(row)
+      character(*), intent(in) :: names               !! line of the names, each at the right of its column
+      type(column_type), intent(in) :: columns(:)
+      character(len(names)) :: row
+
+      character(:), allocatable :: word
+      integer :: k, last
+
+      row = ''
+      do k = 1, size(columns)
+         word = 'NaN'
+         if (columns(k)%kind == of_words) word = '-'
+         if (columns(k)%name == 'status') word = 'failed'
+         last = index(names//' ', ' '//trim(columns(k)%name)//' ') + len_trim(columns(k)%name)
+         row(last - len(word) + 1:last) = word
+      end do
+   end function failed_row
+
    !> Whether the name of a table asks for commas.
    pure logical function has_commas(path)
       character(*), intent(in) :: path
@@ -241,13 +275,15 @@ contains
       has_commas = lower_case(path(max(1, len(path) - len(comma_ending) + 1):)) == comma_ending
    end function has_commas
 
-   !> Reads a summary: a head whose last line has the units, a line of names, and rows. Errors: exit_file_trouble.
+   !> Reads a summary: a head whose last line has the units, a line of names, and rows. Errors: exit_file_trouble, also
+   !> for one whose rows are not as many as the loads, or not as long as the line of names.
    subroutine read_summary(deck, error)
       type(collected_deck), intent(inout) :: deck   !! gets `units`, `names` and `rows`
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: text
-      integer :: names, rows, units   ! first byte of these lines in the text
+      integer :: k, names, rows, units   ! names, rows, units: first byte of these lines in the text
+      logical :: is_whole
 
       call read_file(deck%stem//'.summary.dat', huge(names), text, error)
       if (allocated(error)) return
@@ -257,6 +293,10 @@ contains
       deck%units = text(units:names - 2)
       deck%names = text(names:rows - 2)
       deck%rows = text(rows:)
+      is_whole = deck%rows /= '' .and. len(deck%rows) == deck%loads*(rows - names)
+      if (is_whole) is_whole = all([(deck%rows(k*(rows - names):k*(rows - names)) == newline, k=1, deck%loads)])
+      if (.not. is_whole) call fatal_error(error, exit_file_trouble, &
+         escaped(deck%stem)//'.summary.dat: the summary is damaged. Without --resume all decks are run again')
    end subroutine read_summary
 
    !> Chooses the keys that have a column. A key that has an effect in an earlier deck comes first.

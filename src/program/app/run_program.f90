@@ -151,10 +151,13 @@ contains
             if (is_first_rank() .and. index(shown, problems) == 0) write (error_unit, '(a)') error%message
             shown = shown//problems
             worst = max(worst, error%status)
+            if (command_line%options%table%is_given) &
+               call list_keys(scenes(i)%scene, scenes(i)%keys, command_line%runs(i)%settings)
             deallocate (scenes(i)%scene)
          else
             if (command_line%options%table%is_given) call list_keys(scenes(i)%scene, scenes(i)%keys)
             scenes(i)%case = scenes(i)%scene%case
+            scenes(i)%loads = size(scenes(i)%scene%target)
             scenes(i)%stem = full_path(scenes(i)%scene%directory)//'/'//scenes(i)%case
          end if
       end do

@@ -17,8 +17,8 @@ contains
    !> The number of the known name that is nearest to a misspelt name; 0 if none is near.
    !>
    !> A known name is near if at most a third of the letters are wrong, but one letter always may be. Otherwise it is
-   !> near if the misspelt name is a part of it: best its beginning, otherwise of the shortest one. Of two known names
-   !> at the same distance the one that the deck does not give is taken.
+   !> near if the misspelt name is a part of it: best of the shortest one. Of two known names at the same distance the
+   !> one that the deck does not give is taken.
    pure integer function nearest_name(name, known, is_given) result(nearest)
       character(*), intent(in) :: name      !! lower case
       character(*), intent(in) :: known(:)  !! lower case, padded with blanks
@@ -26,8 +26,7 @@ contains
 
       nearest = nearest_slip(name, known, is_given)
       if (nearest > 0 .or. len(name) < shortest_part .or. len(name) > longest) return
-      nearest = findloc(index(known, name), 1, dim=1)
-      if (nearest == 0) nearest = minloc(len_trim(known), dim=1, mask=index(known, name) > 1)
+      nearest = minloc(len_trim(known), dim=1, mask=index(known, name) > 0)
    end function nearest_name
 
    !> The number of the known name that is near to a misspelt name by its letters alone; 0 if none is.

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from collections.abc import Iterable, Mapping
 from numbers import Integral, Real
 from typing import Any, cast
@@ -16,16 +17,18 @@ from .surfaces import SIDES, Surface, check_names, meanings, slips, unit_name, u
 NEAR = 1e-3   # steps by which places of points may be off, which may have been computed in single precision
 
 
-def heights(h: npt.ArrayLike, *, length_unit: str | None = None, **keys_of_maps: names.Unpack[names.Map]) -> Surface:
+def heights(h: npt.ArrayLike, *, x: npt.ArrayLike | None = None, length_unit: str | None = None,
+            **keys_of_maps: names.Unpack[names.Map]) -> Surface:
     """A surface of heights in memory.
 
     h: heights [length] upwards to the other body, shape (y, x) or, of a profile, (x,); of xarray's axes the names x and
     y tell which is which, and coordinates of these names have the sides, a step for each point, unless sides are given.
-    NaN and masked values are missing heights. length_unit: the unit of all lengths, a label.
+    NaN and masked values are missing heights. x [length]: the places of a profile's points, which give its side; it is
+    resampled if they are not at equal steps. length_unit: the unit of all lengths, a label.
     keys_of_maps: those of a map, such as length_x, length_y [length], height_scale, detrend, fill_missing and edges;
     help(wavycon.file) has them all.
     """
-    check_names("heights", keys_of_maps, [*names.Map.__annotations__, "length_unit"])
+    check_names("heights", keys_of_maps, [*names.Map.__annotations__, "x", "length_unit"])
     if isinstance(h, (str, os.PathLike)):
         raise ValueError(f"heights takes an array, got {h!r}: wavycon.read takes a file")
     given: dict[str, Any] = {**keys_of_maps}
@@ -40,6 +43,16 @@ def heights(h: npt.ArrayLike, *, length_unit: str | None = None, **keys_of_maps:
     if h.ndim not in (1, 2) or h.size == 0:
         raise ValueError(f"heights must have the shape (y, x) or (x,), got {h.shape}")
     h = h if h.ndim == 2 and h.shape[1] > 1 else h.reshape(1, -1)   # a column is a profile
+    if x is not None:
+        if len(h) > 1 or np.shape(x) != (h.size,):
+            raise ValueError(f"x must have the places of all points of a profile, got {np.shape(x)} for {h.shape}")
+        with tempfile.TemporaryDirectory(prefix="wavycon-") as folder:
+            profile = os.path.join(folder, "profile.txt")
+            np.savetxt(profile, np.column_stack([reals(x), h[0]]), fmt="%.17g")
+            try:
+                return Surface(names.file(file=profile, **cast(names.Map, given)).keys, None, length_unit).prepared()
+            except ValueError as error:
+                raise ValueError(str(error).replace(profile, "x")) from None
     return Surface(names.file(file="heights", **cast(names.Map, given)).keys, h, length_unit)
 
 

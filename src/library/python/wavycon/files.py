@@ -6,7 +6,6 @@ import contextlib
 import os
 import re
 import sys
-import tempfile
 import warnings
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -67,16 +66,13 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
         if keys_of_maps.get(key) is not None:
             why = f"the file has {sides[key]:g} {unit or ''}" if key in sides else "it is for wavycon.file"
             raise ValueError(f"{file}: leave out {key}: {why}".rstrip())
-    if x is None:
-        return heights(z, length_unit=unit, **cast(names.Map, {**keys_of_maps, **sides}))
-    tell([f"{file}: this profile has unequal steps and is resampled to equal ones"])
-    with tempfile.TemporaryDirectory(prefix="wavycon-") as folder:
-        profile = os.path.join(folder, f"{os.path.basename(file)}.txt")
-        np.savetxt(profile, np.column_stack([x, z]), fmt="%.17g")
-        try:
-            return Surface(names.file(file=profile, **keys_of_maps).keys, None, unit).prepared()
-        except ValueError as error:
-            raise ValueError(str(error).replace(profile, os.fspath(file))) from None
+    if x is not None:
+        tell([f"{file}: this profile has unequal steps and is resampled to equal ones"])
+        sides = {}
+    try:
+        return heights(z, x=x, length_unit=unit, **cast(names.Map, {**keys_of_maps, **sides}))
+    except ValueError as error:
+        raise ValueError(f"{file}: {error}") from None
 
 
 def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str | None = None,

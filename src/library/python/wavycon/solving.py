@@ -1,7 +1,9 @@
 """Solving: loads of surfaces, of decks, one after the other; bounds."""
 from __future__ import annotations
 
+import ast
 import os
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -43,31 +45,41 @@ class Bounds(NamedTuple):
 
 
 def certify(surface: Surface, pressure: npt.ArrayLike | Result, gap: npt.ArrayLike | None = None, *,
-            mean_pressure: float, x: npt.ArrayLike | None = None, y: npt.ArrayLike | None = None,
-            **options: Unpack[Settings]) -> Bounds:
+            mean_pressure: float | None = None, pbar_over_pstar: float | None = None, x: npt.ArrayLike | None = None,
+            y: npt.ArrayLike | None = None, **options: Unpack[Settings]) -> Bounds:
     """Guaranteed bounds of the contact of a surface under a mean pressure, from any pressure and gap, also those of
     another code. They hold for the surface itself, not for its points, and whatever is given: the right answer makes
     them close, a wrong one makes them wide.
 
     pressure [pressure], gap [length]: of the shape (y, x) or, of a profile, (x,), at equal steps over the whole
-    surface, of a height map at its own points or at more; or a Result in place of both, which has x and y too. x, y
-    [length]: their places. The first one is at most a step from 0, on a map with edges="mirror" half a step; without
-    x and y it is at 0, on such a map at half a step. Negative pressures count as 0, and so do negative gaps unless
-    there is a hardness; the pressure is scaled to the mean. options: as of solve, such as e_star.
+    surface, of a height map at its own points or at more; or a Result in place of both, which has x, y and the mean
+    pressure too and, if there are no options, the material. mean_pressure [pressure], pbar_over_pstar: one number, as
+    of solve. x, y [length]: their places. The first one is at most a step from 0, on a map with edges="mirror" half a
+    step; without x and y it is at 0, on such a map at half a step. Negative pressures count as 0, and so do negative
+    gaps unless there is a hardness; the pressure is scaled to the mean. options: as of solve, such as e_star.
 
         one = wc.solve(surface, e_star=2e11, mean_pressure=1e7)[0]
-        wc.certify(surface, one, e_star=2e11, mean_pressure=1e7).mean_gap
+        wc.certify(surface, one).mean_gap
     """
     fields: Any = pressure, gap
+    settings: dict[str, Any] = {**options}
     if isinstance(pressure, Result):
         fields, x, y = (pressure.pressure, pressure.gap), pressure.x, pressure.y
+        if not settings:
+            (group,) = re.findall(r"^&material(.*?)^/", pressure._facts.deck, re.DOTALL | re.MULTILINE)
+            settings["material"] = {key: ast.literal_eval(one) for key, one in re.findall(r"\n +(\w+) = (\S+)", group)}
+        if mean_pressure is pbar_over_pstar is None:
+            mean_pressure = pressure.mean_pressure
     elif gap is None:
         raise ValueError("give pressure and gap, or one load, such as results[0], in place of both")
     p, g = np.atleast_2d(*map(reals, fields))
     if p.ndim != 2 or p.shape != g.shape:
         raise ValueError(f"pressure and gap must have one shape, (y, x) or (x,), got {p.shape} and {g.shape}")
-    mean_pressure = one_number("mean_pressure", mean_pressure)
-    scene = scene_of(surface, {"mean_pressure": mean_pressure, **options}, keep_fields=False)
+    if pbar_over_pstar is None:
+        mean_pressure = one_number("mean_pressure", mean_pressure)
+    scene = scene_of(surface, {"mean_pressure": mean_pressure, "pbar_over_pstar": pbar_over_pstar, **settings}, False)
+    if pbar_over_pstar is not None:
+        mean_pressure = one_number("pbar_over_pstar", pbar_over_pstar)*library.number(scene, "p_star")
     library.tell(library.text(scene, "notes").splitlines())
     offset, bounds = np.zeros(2), np.empty((3, 2))
     for axis, (places, points) in enumerate(zip((x, y), p.shape[::-1])):
