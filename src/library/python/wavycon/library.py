@@ -59,7 +59,8 @@ def call(name: str, *arguments: Any) -> Any:
     if not hasattr(_own, "error"):
         _own.error = Handle(lib.wavycon_new_error())
     if cut := [one for one in arguments if isinstance(one, bytes) and b"\0" in one]:
-        raise ValueError(f"a text must not have a null character, which ends it, got {cut[0].decode(errors='replace')!r}")
+        text = cut[0].decode(errors="replace")
+        raise ValueError(f"a text must not have a null character, which ends it, got {text!r}")
     function = getattr(lib, f"wavycon_{name}")
     answer = function(_own.error, *arguments)
     code = lib.wavycon_get_code(_own.error)
