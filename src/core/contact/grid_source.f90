@@ -5,7 +5,7 @@ module wavycon_grid_source
    use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, shift_contour, trace_edges
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_grid_area, only: grid_strip_edges
+   use wavycon_grid_area, only: edge_crossings, grid_strip_edges
    use wavycon_grid_derivatives, only: differentiate_on_grid
    use wavycon_grid_edge, only: grid_edge, make_grid_edge
    use wavycon_grid_error, only: change_history
@@ -136,7 +136,7 @@ contains
       !> the series has twice as many.
       integer(int64), parameter :: numbers_a_point = 10
       integer :: cells   ! cells along x and y of the series: the map alone, or the map and as many zeros
-      real(dp) :: error
+      real(dp) :: crossings, error
       real(dp), allocatable :: of_approach   ! error of the approach [Delta]; if not allocated, the argument is absent
       real(dp), allocatable :: values(:, :)
 
@@ -158,6 +158,7 @@ contains
       else if (is_known(self%record%error(approach)) .and. .not. surface%kernel%has_layer()) then
          of_approach = self%record%error(approach)
       end if
+      crossings = edge_crossings(self%edge)/product(real(self%edge%slab%points, dp))
       call transform%start(shape(values), self%edge%even .and. cells == 1, whole=.true.)
       call transform%series(values, pressure)
       deallocate (values)
@@ -167,7 +168,7 @@ contains
       own%repeats = .not. surface%has_free_edges
       call start_series_stress_fields(own%series_stress_fields, surface, pressure, &
                                       self%record%pbar_over_pstar/cells**2, or_nan(error), is_sampled=.true., &
-                                      approach_error=of_approach)
+                                      approach_error=of_approach, crossings=crossings)
       if (cells > 1) call own%remove_images(point_angle(1, self%edge%slab%points, self%edge%even))
       call move_alloc(own, answer)
    end subroutine stresses

@@ -66,16 +66,14 @@ contains
       where (maps_in_cell > 1) place(:2) = abs(place(:2) - anint(place(:2)))
    end function position_in_cell
 
-   !> Refines the places with the largest stresses, at most `refined_places` of them besides doubtful ones, and returns
+   !> Refines the places with the largest stresses, at most `refined_places` of them, and returns
    !> the largest refined stress.
    !>
    !> Two refined places are farther apart than twice the width of the maximum at the first one: closer places lead to
-   !> the same maximum. A stress is doubtful if its error is more than a quarter of the stress, as at the edge of
-   !> contact, where the stress may be large by its error alone. A doubtful stress is compared with the others after its
-   !> error is subtracted; two doubtful stresses are compared by their values. Errors fall with depth. So where a stress
-   !> is doubtful, or a deeper place may have a larger one by the error, the places that are no deeper are given up, and
-   !> deeper ones are refined. The error of the answer is at least the largest sum of a stress and its own error, less
-   !> the answer.
+   !> the same maximum. The local error is what the place adds to the error that all places at its depth have. It is
+   !> large at the edge of contact and falls with depth. So where a deeper place may have a larger stress by the local
+   !> error, the places that are no deeper are given up, and deeper ones are refined. The error of the answer is at least
+   !> the largest sum of a stress and its own error, less the answer.
    subroutine search(fields, body, by_shear, places, answer)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body
@@ -84,10 +82,11 @@ contains
       type(largest_stress), intent(out) :: answer
 
       !> Sizes of stresses [p*]: at the start places, -1 where a place is not to be refined; the least one that is
-      !> refined; the answer less its error if it is doubtful; the largest one plus its error.
-      real(dp) :: values(size(places)), threshold, certain, lower, highest
-      real(dp) :: component_error, least_gain, gain, nu_terms(6, 2), uncertainty
-      logical :: hides_deeper, is_doubtful, is_larger
+      !> refined; the largest one plus its error.
+      real(dp) :: values(size(places)), threshold, highest
+      real(dp) :: component_error, least_gain, gain, nu_terms(6, 2)
+      real(dp) :: local, uncertainty   ! local error; whole error [p*], both 0 if unknown
+      logical :: hides_deeper
       type(largest_stress) :: other
       integer :: best, i, k, refined
 
@@ -99,7 +98,6 @@ contains
       end associate
       if (.not. ieee_is_nan(component_error)) least_gain = min(gain_part*component_error, least_gain)
       answer%value = -1.0_dp
-      certain = -huge(certain)
       threshold = 0.0_dp
       highest = 0.0_dp
       hides_deeper = .false.
@@ -119,14 +117,7 @@ contains
          end if
          if (.not. hides_deeper) refined = refined + 1
          highest = max(highest, other%value + uncertainty)
-         lower = other%value
-         if (is_doubtful) lower = other%value - uncertainty
-         is_larger = lower > certain
-         if (is_doubtful .and. certain < answer%value) is_larger = other%value > answer%value
-         if (is_larger) then
-            answer = other
-            certain = lower
-         end if
+         if (other%value > answer%value) answer = other
          if (hides_deeper) then
             associate (no_deeper => places%position(3) <= places(best)%position(3))
                highest = max(highest, maxval(values, mask=no_deeper) + uncertainty)
@@ -148,11 +139,13 @@ contains
          call fields%at(other%position(1), other%position(2), other%position(3), nu_terms, component_error)
          other%value = size_of(by_shear, body%stress(nu_terms, fields%pbar_over_pstar))
          other%error = error_of_invariant*component_error + gain
+         local = 0.0_dp
          uncertainty = 0.0_dp
-         if (.not. ieee_is_nan(component_error)) uncertainty = error_of_invariant*component_error
-         is_doubtful = uncertainty > (1.0_dp - close_to_largest)*other%value
-         hides_deeper = is_doubtful .or. &
-            any(values >= other%value - uncertainty .and. places%position(3) > places(best)%position(3))
+         if (.not. ieee_is_nan(component_error)) then
+            uncertainty = error_of_invariant*component_error
+            local = component_error - fields%pressure_error_at(other%position(3))
+         end if
+         hides_deeper = any(values >= other%value - local .and. places%position(3) > places(best)%position(3))
       end subroutine measure
 
    end subroutine search

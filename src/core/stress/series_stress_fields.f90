@@ -27,6 +27,9 @@ module wavycon_series_stress_fields
    !> The eight sums (S4) and the three sums of the error (S5).
    integer, parameter :: number_of_sums = 11
 
+   !> The depth of one step times the wave number from which the last octave begins.
+   real(dp), parameter :: step_in_octave = 0.5_dp*pi
+
    !> Pressures below this part of the largest one are rounding.
    real(dp), parameter :: rounding = 1e-13_dp
 
@@ -41,6 +44,7 @@ module wavycon_series_stress_fields
       type(pressure_wave_sums) :: waves              !! the waves of the pressure that (S4) adds up
       real(dp), public :: pressure_error = 0.0_dp    !! error estimate of the pressure [p*]; NaN if there is none
       real(dp) :: wave_error = huge(1.0_dp)          !! E_e of (S15) [p*^2]; huge if it is unknown
+      real(dp) :: edge_density = 0.0_dp              !! length of the edge of contact over the area, (S15a) [1/rad]
       real(dp) :: image_error = 0.0_dp               !! with free edges the part of `pressure_error` that images leave
       type(taylor_series), allocatable :: known(:)   !! series made by `expand` so far
       integer :: used = 0                            !! number of the one that `near` takes
@@ -58,7 +62,7 @@ contains
    !> Prepares the stresses below a pressure that is a Fourier series. Waves that the error of the pressure hides at a
    !> depth are left out there: see `pressure_part`.
    subroutine start_series_stress_fields(stress, surface, pressure, pbar_over_pstar, pressure_error, is_sampled, &
-                                         approach_error)
+                                         approach_error, crossings)
       type(series_stress_fields), intent(out) :: stress
       type(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: pressure    !! p/p* on the cell; its mean is not used
@@ -66,6 +70,8 @@ contains
       real(dp), intent(in) :: pressure_error          !! estimate of the pressure's error [p*]; NaN if there is none
       logical, intent(in) :: is_sampled               !! whether the series is the one through values at a grid's points
       real(dp), intent(in), optional :: approach_error   !! estimate of the approach's error [Delta]; absent if unknown
+      !> With approach_error: pairs of neighbouring points of a grid between which contact ends, over the points.
+      real(dp), intent(in), optional :: crossings
 
       stress%pbar_over_pstar = pbar_over_pstar
       stress%dimension = surface%dimension
@@ -75,8 +81,11 @@ contains
       call stress%waves%start(pressure, stress%side_ratio, is_sampled)
       call stress%waves%pressure%set_mean(0.0_dp)
       stress%pressure_error = pressure_error
-      if (present(approach_error)) &
+      if (present(approach_error)) then
          stress%wave_error = 2*pbar_over_pstar*approach_error*surface%stiffness/surface%length(1)
+         ! A line in any direction crosses the lines of a grid of the step h along both axes 4/(pi h) times a length.
+         stress%edge_density = crossings*merge(1.0_dp, pi/4, surface%dimension == 1)*2*stress%waves%sampled_from/pi
+      end if
       call leave_out_hidden(stress, 0.0_dp)
    end subroutine start_series_stress_fields
 
@@ -315,26 +324,32 @@ contains
       if (.not. ieee_is_nan(error_of)) error_of = max(error_of, vertical)
    end function error_of
 
-   !> What is left at a depth of the error of the pressure, (S15) [p*]; NaN if there is no estimate.
+   !> The error of the stresses at a depth that is the same at all places [p*]; NaN if there is no estimate. At the
+   !> surface it is the error of the pressure, from a depth of one step on the smaller one of (S15) and (S15a).
    pure real(dp) function pressure_error_at(self, depth) result(error)
       class(series_stress_fields), intent(in) :: self
       real(dp), intent(in) :: depth   !! Z
 
-      !> Z_0 over the longer side, and the two integrals of (S15) with their factors.
-      real(dp), parameter :: last_power = 2.5_dp, of_lines = 2.25_dp, of_planes = 11.0_dp
-      real(dp) :: from, longer, sum_of_waves
+      !> Z_0 over the longer side, and the two integrals of (S15) with their factors; the factors of (S15a).
+      real(dp), parameter :: last_power = 2.5_dp, of_lines = 2.25_dp, of_planes = 11.0_dp, of_one = 0.541_dp, &
+         of_all = 1.125_dp
+      real(dp) :: from, longer, mean_square, near_edges, sum_of_waves
 
       error = self%pressure_error
       if (ieee_is_nan(error) .or. .not. self%wave_error < huge(1.0_dp)) return
-      ! Above the depth of a step (S15) is larger than the error at the surface.
-      if (depth*self%waves%sampled_from < 1.0_dp) return
+      if (depth*self%waves%sampled_from < step_in_octave) return
       longer = max(1.0_dp, self%side_ratio)
       from = depth
       ! Without images there is no longest wave.
       if (.not. allocated(self%load)) from = min(depth, last_power*longer)
       sum_of_waves = of_lines*longer*(1.0_dp/from)**2
       if (self%dimension == 2) sum_of_waves = sum_of_waves + of_planes*self%side_ratio*(1.0_dp/from)**3
-      error = min(error, self%image_error + sqrt(self%wave_error*sum_of_waves)*depth/from*exp((from - depth)/longer))
+      error = sqrt(self%wave_error*sum_of_waves)*depth/from*exp((from - depth)/longer)
+      mean_square = of_one/depth
+      if (self%dimension == 2) mean_square = of_all/(2*self%waves%sampled_from*depth**2)
+      near_edges = min(1.0_dp, 2*depth*self%edge_density)
+      if (near_edges > 0.0_dp) error = min(error, sqrt(self%wave_error*mean_square/near_edges))
+      error = self%image_error + error
    end function pressure_error_at
 
    !> What is left at a depth, at most, of the ringing of a grid's series at the surface, over this (S14).

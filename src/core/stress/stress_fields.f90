@@ -31,7 +31,7 @@ module wavycon_stress_fields
       !> otherwise 1 (surface%maps_in_cell()).
       integer :: maps_in_cell(2) = 1
    contains
-      procedure :: at, start_points, expand, near, on_line, on_plane, set_stresses
+      procedure :: at, start_points, expand, near, on_line, on_plane, set_stresses, pressure_error_at
    end type stress_fields
 
 contains
@@ -50,6 +50,16 @@ contains
       nu_terms = not_a_number()
       if (present(error)) error = not_a_number()
    end subroutine at
+
+   !> The part of the error at a depth that follows from the error of the pressure and is the same at all places [p*].
+   !> NaN if it is not known; here 0.
+   pure real(dp) function pressure_error_at(self, depth) result(error)
+      class(stress_fields), intent(in) :: self
+      real(dp), intent(in) :: depth   !! Z >= 0 [rad]
+
+      associate (unused => self, unused_too => depth); end associate
+      error = 0.0_dp
+   end function pressure_error_at
 
    !> Proposes the places from which the search for the largest stress starts. At least one of them should be close to
    !> the largest stress of the body.
