@@ -1078,6 +1078,37 @@ class Files(PackageTest):
         numpy.savetxt("map.txt", h)
         self.refuse("map.txt: leave out missing_value: it is for wavycon.file", wc.read, "map.txt", missing_value=1)
 
+    def test_no_row_is_lost(self):
+        """SurfaceTopography takes the lines of a profile as far as the last one that is no row for a head, and leaves out
+        such lines of a matrix."""
+        for between in ",", ";", "\t", " ":
+            for place in 0, 8, 39:
+                for line in f"{place}{between}", "5.0", "pause", "***":
+                    rows = [f"{i}{between}{i % 3}" for i in range(40)]
+                    rows[place] = line
+                    pathlib.Path("gap.csv").write_text(f"x{between}z\n" + "\n".join(rows) + "\n")
+                    if line[-1] in ",;\t":
+                        self.assertEqual((1, 40), wc.read("gap.csv", fill_missing="harmonic").prepared().heights.shape)
+                    elif line[0].isdigit() or place > 0:   # above the first row they are a head
+                        number = 3 if place == 0 else place + 2
+                        self.refuse(f"gap.csv:{number}: ", wc.read, "gap.csv", fill_missing="harmonic")
+        h = numpy.random.default_rng(1).normal(size=(64, 64))
+        for head in "", "# Channel: Height\n# Width: 4 um\n# Height: 4 um\n# Value units: um\n":
+            for place in 20, 63:
+                for line in "***", "line 20 lost", "1,2,3,4":
+                    rows = [" ".join(map(str, row)) for row in h]
+                    rows[place] = line
+                    pathlib.Path("lost.txt").write_text(head + "\n".join(rows) + "\n")
+                    self.refuse(f"lost.txt:{place + 1 + head.count('#')}: ", wc.read, "lost.txt")
+        # What is read as before: maps one below the other, two bytes a character.
+        maps = [f"Channel: {name}\nWidth: 4 um\nHeight: 4 um\nValue units: um\n" + "\n".join(
+            " ".join(map(str, row)) for row in rows) for name, rows in (("First", h), ("Second", -h))]
+        pathlib.Path("maps.txt").write_text("\n".join(maps))
+        numpy.testing.assert_array_equal(-h, wc.read("maps.txt", "Second").heights)
+        rows = "\n".join(f"{i},{i % 3}" for i in range(40))
+        pathlib.Path("two.csv").write_text(f"x,z\n{rows}\n", encoding="utf-16")
+        self.assertEqual(40, wc.read("two.csv").heights.size)
+
     def test_what_is_no_file_of_an_instrument(self):
         """The program reads tables of numbers, or tells what is wrong."""
         h = numpy.random.default_rng(1).normal(size=(8, 12))
