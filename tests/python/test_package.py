@@ -1109,6 +1109,10 @@ class Files(PackageTest):
         pathlib.Path("two.csv").write_text(f"x,z\n{rows}\n", encoding="utf-16")
         self.assertEqual(40, wc.read("two.csv").heights.size)
 
+    def test_the_line_at_which_x_does_not_rise(self):
+        pathlib.Path("back.csv").write_text("x,z\n100.0,0\n101.1,.1\n102.0,.3\n102.0,.4\n103.3,.2\n")
+        self.refuse("back.csv:5: x = 102 after 102", wc.read, "back.csv")
+
     def test_what_is_no_file_of_an_instrument(self):
         """The program reads tables of numbers, or tells what is wrong."""
         h = numpy.random.default_rng(1).normal(size=(8, 12))

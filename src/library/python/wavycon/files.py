@@ -127,6 +127,8 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
         raise ValueError(f"{file}: {error if isinstance(error, NoHeights) else words}") from error
     if kind in ("asc", "xyz") and not are_blocks and is_broken(file, z.size if kind == "xyz" else len(z)):
         return None   # its readers leave out lines that are no rows, in silence, and take inf for missing
+    if kind == "xyz" and x is not None and not (np.diff(x) > 0).all():
+        return None   # which tells the line
     if are_lines and not known and z.ndim == 2 and z.shape[1] == 3 and len(z) > 3:
         return None   # lines of points x, y, z with missing ones
     return x, z, dict(zip(SIDES, sides)), unit or own or None
