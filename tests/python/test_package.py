@@ -1113,6 +1113,21 @@ class Files(PackageTest):
         pathlib.Path("back.csv").write_text("x,z\n100.0,0\n101.1,.1\n102.0,.3\n102.0,.4\n103.3,.2\n")
         self.refuse("back.csv:5: x = 102 after 102", wc.read, "back.csv")
 
+    def test_the_unit_is_that_of_the_sides(self):
+        """As the program has it; SurfaceTopography takes that of the heights."""
+        h = numpy.random.default_rng(1).normal(size=(6, 8))
+        head = "# Channel: Height\n# Width: 20{0}0 µm\n# Height: 15{0}0 µm\n# Value units: nm\n"
+        for point in ".", ",":
+            rows = "\n".join("\t".join(map("{:.6f}".format, row)) for row in h)
+            pathlib.Path("scan.txt").write_text(head.format(point) + rows.replace(".", point), encoding="utf-8")
+            for unit, factor in (None, 1), ("nm", 1000):
+                if unit and point == ",":
+                    continue   # the program converts nothing
+                one = wc.solve(wc.read("scan.txt", length_unit=unit), pbar_over_pstar=0)
+                self.assertEqual(unit or "um", surfaces.unit_name(one.length_unit))
+                numpy.testing.assert_allclose((one.length_x, one.length_y, one.surface.rms_height), factor*numpy.array(
+                    [20, 15, 1e-3*h.std()]), rtol=1e-5)
+
     def test_what_is_no_file_of_an_instrument(self):
         """The program reads tables of numbers, or tells what is wrong."""
         h = numpy.random.default_rng(1).normal(size=(8, 12))

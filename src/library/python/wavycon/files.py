@@ -110,7 +110,7 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
             # Maps of one size, one below the other, have heads in words between them.
             are_blocks = len(points := [one.nb_grid_pts for one in reader.channels]) > 1 == len(set(points))
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
-            own, unit = unit_name(topography.unit), unit_name(unit)
+            own, unit = unit_name(topography.unit), unit_name(unit) or unit_of_sides(info)
             if unit and own and not {own, unit} <= LENGTHS.keys():
                 raise NoHeights(f"{unit!r} is no unit to which {own!r} is converted: units are {', '.join(LENGTHS)}")
             factor = float(f"1e{LENGTHS[own] - LENGTHS[unit]}") if unit and own else 1.0
@@ -191,6 +191,13 @@ def unit_of(channel: Any) -> Any:
     told = getattr(channel, "data_unit", None) or channel.unit
     # Some readers tell the units of places and values together.
     return told[-1] if isinstance(told, tuple) else told
+
+
+def unit_of_sides(channel: Any) -> str | None:
+    """The unit of length of the sides in a text or a file .sur, which the reader converts to that of the heights."""
+    told = channel.info.get("raw_metadata")
+    unit = unit_name(told.get("xunit") or told.get("delta_x_unit")) if isinstance(told, dict) else None
+    return unit if unit in LENGTHS and unit_name(channel.unit) in LENGTHS else None
 
 
 def has_heights(channel: Any) -> bool:
