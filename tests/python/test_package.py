@@ -733,6 +733,13 @@ class Notes(PackageTest):
         self.assertIn("partial slip neglects the coupling", notes[0])
         self.assertEqual(notes, results.notes)
 
+    def test_tables_of_one_load_count_no_loads(self):
+        """The package asks for the table load by load."""
+        results = wc.solve(wc.wave_2d(), pbar_over_pstar=[3e-3, 2e-3, 1e-3], solver="grid", grid_points=64, stress={"nu": 0})
+        results.table("stress_largest")
+        self.assertEqual(["the error of the largest stress is more than half of it: give a better accuracy, or more "
+                          "grid_points"], [note for note in results.notes if "largest stress" in note])
+
     def test_a_sweep(self):
         (self.folder/"noted.nml").write_text("&surface kind = 'wave_2d' / &load pbar_over_pstar = 0.5 /")
         frame = wc.sweep("noted.nml", {"method.solver": ["auto", "beale"]})
