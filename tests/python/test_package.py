@@ -1226,7 +1226,7 @@ class Files(PackageTest):
                          "ones", notes.getvalue().splitlines()[0])
         numpy.savetxt("holes.txt", numpy.c_[x, numpy.where(numpy.arange(60) == 7, numpy.nan, x)])
         with self.assertWarnsRegex(wc.Note, "unequal steps"):
-            self.refuse("^holes.txt: . of 60 heights, resampled to equal steps, are missing", wc.read, "holes.txt")
+            self.refuse("^holes.txt: x: . of 60 heights, resampled to equal steps, are missing", wc.read, "holes.txt")
 
     def test_misuse(self):
         (self.folder/"words.txt").write_text("no heights")

@@ -163,8 +163,9 @@ def is_broken(file: str | os.PathLike[str], rows: int) -> bool:
     lines = [words for line in text.translate(bytes.maketrans(b",;", b"  ")).splitlines()
              if (words := line.split()) and not words[0].startswith(b"#")]
     numbers = [sum(map(bool, map(WORD.fullmatch, words))) for words in lines]
-    first, width = len(lines) - rows, {*numbers[-rows:], *map(len, lines[-rows:])}
-    return first < 0 or len(width) > 1 or any(n and len(words) in {n, *width} for n, words in zip(numbers, lines[:first]))
+    widths, head = {*numbers[-rows:], *map(len, lines[-rows:])}, lines[:-rows]
+    return len(lines) < rows or len(widths) > 1 or any(
+        n and len(words) in {n, *widths} for n, words in zip(numbers, head))
 
 
 class NoHeights(Exception):
