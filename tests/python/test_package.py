@@ -733,6 +733,13 @@ class Notes(PackageTest):
         self.assertIn("partial slip neglects the coupling", notes[0])
         self.assertEqual(notes, results.notes)
 
+    def test_tables_of_one_load_count_no_loads(self):
+        """The package asks for the table load by load."""
+        results = wc.solve(wc.wave_2d(), pbar_over_pstar=[3e-3, 2e-3, 1e-3], solver="grid", grid_points=64, stress={"nu": 0})
+        results.table("stress_largest")
+        self.assertEqual(["the error of the largest stress is more than half of it: give a better accuracy, or more "
+                          "grid_points"], [note for note in results.notes if "largest stress" in note])
+
     def test_a_sweep(self):
         (self.folder/"noted.nml").write_text("&surface kind = 'wave_2d' / &load pbar_over_pstar = 0.5 /")
         frame = wc.sweep("noted.nml", {"method.solver": ["auto", "beale"]})
@@ -1078,6 +1085,56 @@ class Files(PackageTest):
         numpy.savetxt("map.txt", h)
         self.refuse("map.txt: leave out missing_value: it is for wavycon.file", wc.read, "map.txt", missing_value=1)
 
+    def test_no_row_is_lost(self):
+        """SurfaceTopography takes the lines of a profile as far as the last one that is no row for a head, and leaves out
+        such lines of a matrix."""
+        for between in ",", ";", "\t", " ":
+            for place in 0, 8, 39:
+                for line in f"{place}{between}", "5.0", "pause", "***":
+                    rows = [f"{i}{between}{i % 3}" for i in range(40)]
+                    rows[place] = line
+                    pathlib.Path("gap.csv").write_text(f"x{between}z\n" + "\n".join(rows) + "\n")
+                    if line[-1] in ",;\t":
+                        self.assertEqual((1, 40), wc.read("gap.csv", fill_missing="harmonic").prepared().heights.shape)
+                    elif line[0].isdigit() or place > 0:   # above the first row they are a head
+                        number = 3 if place == 0 else place + 2
+                        self.refuse(f"gap.csv:{number}: ", wc.read, "gap.csv", fill_missing="harmonic")
+        h = numpy.random.default_rng(1).normal(size=(64, 64))
+        for head in "", "# Channel: Height\n# Width: 4 um\n# Height: 4 um\n# Value units: um\n":
+            for place in 20, 63:
+                for line in "***", "line 20 lost", "1,2,3,4":
+                    rows = [" ".join(map(str, row)) for row in h]
+                    rows[place] = line
+                    pathlib.Path("lost.txt").write_text(head + "\n".join(rows) + "\n")
+                    self.refuse(f"lost.txt:{place + 1 + head.count('#')}: ", wc.read, "lost.txt")
+        # What is read as before: maps one below the other, two bytes a character.
+        maps = [f"Channel: {name}\nWidth: 4 um\nHeight: 4 um\nValue units: um\n" + "\n".join(
+            " ".join(map(str, row)) for row in rows) for name, rows in (("First", h), ("Second", -h))]
+        pathlib.Path("maps.txt").write_text("\n".join(maps))
+        numpy.testing.assert_array_equal(-h, wc.read("maps.txt", "Second").heights)
+        rows = "\n".join(f"{i},{i % 3}" for i in range(40))
+        pathlib.Path("two.csv").write_text(f"x,z\n{rows}\n", encoding="utf-16")
+        self.assertEqual(40, wc.read("two.csv").heights.size)
+
+    def test_the_line_at_which_x_does_not_rise(self):
+        pathlib.Path("back.csv").write_text("x,z\n100.0,0\n101.1,.1\n102.0,.3\n102.0,.4\n103.3,.2\n")
+        self.refuse("back.csv:5: x = 102 after 102", wc.read, "back.csv")
+
+    def test_the_unit_is_that_of_the_sides(self):
+        """As the program has it; SurfaceTopography takes that of the heights."""
+        h = numpy.random.default_rng(1).normal(size=(6, 8))
+        head = "# Channel: Height\n# Width: 20{0}0 µm\n# Height: 15{0}0 µm\n# Value units: nm\n"
+        for point in ".", ",":
+            rows = "\n".join("\t".join(map("{:.6f}".format, row)) for row in h)
+            pathlib.Path("scan.txt").write_text(head.format(point) + rows.replace(".", point), encoding="utf-8")
+            for unit, factor in (None, 1), ("nm", 1000):
+                if unit and point == ",":
+                    continue   # the program converts nothing
+                one = wc.solve(wc.read("scan.txt", length_unit=unit), pbar_over_pstar=0)
+                self.assertEqual(unit or "um", surfaces.unit_name(one.length_unit))
+                numpy.testing.assert_allclose((one.length_x, one.length_y, one.surface.rms_height), factor*numpy.array(
+                    [20, 15, 1e-3*h.std()]), rtol=1e-5)
+
     def test_what_is_no_file_of_an_instrument(self):
         """The program reads tables of numbers, or tells what is wrong."""
         h = numpy.random.default_rng(1).normal(size=(8, 12))
@@ -1169,7 +1226,7 @@ class Files(PackageTest):
                          "ones", notes.getvalue().splitlines()[0])
         numpy.savetxt("holes.txt", numpy.c_[x, numpy.where(numpy.arange(60) == 7, numpy.nan, x)])
         with self.assertWarnsRegex(wc.Note, "unequal steps"):
-            self.refuse("^holes.txt: . of 60 heights, resampled to equal steps, are missing", wc.read, "holes.txt")
+            self.refuse("^holes.txt: x: . of 60 heights, resampled to equal steps, are missing", wc.read, "holes.txt")
 
     def test_misuse(self):
         (self.folder/"words.txt").write_text("no heights")

@@ -156,6 +156,15 @@ class Peers(ProgramTest):
                 self.same(f"file {form}", ours.heights, unit*again.data, SINGLE if form == "tmd" else ROUNDING)
                 for key, side in ("length_x", again.step_x*h.shape[1]), ("length_y", again.step_y*h.shape[0]):
                     self.assertAlmostEqual(1, ours.keys[key]/(unit*side), delta=SINGLE)
+        # Axes in um, heights in nm: the name of the unit is that of the axes.
+        head = pathlib.Path("map.sur").read_bytes()
+        self.assertEqual(6, head[:512].count(b"\xb5m"))   # of x, y and z twice
+        parts = head.split(b"\xb5m", 6)
+        pathlib.Path("nm.sur").write_bytes(b"".join(part + unit for part, unit in zip(parts, [b"\xb5m", b"\xb5m", b"nm"]*2))
+                                           + parts[6])
+        ours = wc.read("nm.sur")
+        self.assertEqual(("um", 32), (ours.length_unit, round(ours.keys["length_x"], 6)))
+        self.same("file sur in nm", 1000*ours.heights, surfalize.Surface.load("map.sur").data, ROUNDING)
 
 
 def rms(*parts):

@@ -141,6 +141,7 @@ contains
       type(results_type), intent(inout) :: results   !! with a group &stress and all loads solved with their fields
       type(run_log), intent(inout) :: logger         !! shows the progress
 
+      character(:), allocatable :: of_loads
       class(stress_fields), allocatable :: fields
       integer :: body, load, number
       integer(int64), allocatable :: words(:)   ! the largest stresses of all loads
@@ -175,9 +176,12 @@ contains
       end if
       number = count([(any([(results%stress_status(load, body), body=1, size(results%largest_stresses, 2))] /= &
                            results%loads(load)%status), load=1, size(results%loads))])
-      if (number > 0) call logger%note('the error of the largest stress is more than half of it at '// &
-         integer_text(number)//' of '//integer_text(size(results%loads))//' loads: give a better accuracy, or more '// &
-         'grid_points')
+      if (number == 0) return
+      ! The library asks load by load.
+      of_loads = ' at '//integer_text(number)//' of '//integer_text(size(results%loads))//' loads'
+      if (size(results%loads) == 1) of_loads = ''
+      call logger%note('the error of the largest stress is more than half of it'//of_loads// &
+                       ': give a better accuracy, or more grid_points')
    end subroutine find_stresses
 
    !> Solves partial slip under all loads and tangential loads, or the contact with adhesion, if the deck asks for it.

@@ -30,7 +30,7 @@ LENGTHS = {"Gm": 9, "Mm": 6, "km": 3, "m": 0, "cm": -2, "mm": -3, "um": -6, "nm"
            "fm": -15}
 # A number, or a missing one, as SurfaceTopography and the program read it; inf is missing to the one, wrong to the
 # other.
-WORD = re.compile(rb"[-+]?(?:\.?\d[-+.\dEe]*|nan)", re.IGNORECASE)
+WORD = re.compile(rb"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan)", re.IGNORECASE)
 # The head of Gwyddion's texts, whose words are those of the user's language.
 GWYDDION_TEXT = re.compile(rb"(?:\xef\xbb\xbf)?(?:# ?[^:\n]+:.*\n){3}")
 
@@ -107,8 +107,10 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
             known, are_lines = info.physical_sizes is not None, kind == "asc"
             if are_lines and GWYDDION_TEXT.match(start) and not (known and info.unit):
                 return None   # a head in another language than English, of which the reader knows some lines
+            # Maps of one size, one below the other, have heads in words between them.
+            are_blocks = len(points := [one.nb_grid_pts for one in reader.channels]) > 1 == len(set(points))
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
-            own, unit = unit_name(topography.unit), unit_name(unit)
+            own, unit = unit_name(topography.unit), unit_name(unit) or unit_of_sides(info)
             if unit and own and not {own, unit} <= LENGTHS.keys():
                 raise NoHeights(f"{unit!r} is no unit to which {own!r} is converted: units are {', '.join(LENGTHS)}")
             factor = float(f"1e{LENGTHS[own] - LENGTHS[unit]}") if unit and own else 1.0
@@ -123,8 +125,10 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
             return None
         words = f"SurfaceTopography cannot read it: {in_line(type(error), error)}"
         raise ValueError(f"{file}: {error if isinstance(error, NoHeights) else words}") from error
-    if kind in ("asc", "xyz") and is_broken(file, z.ndim + 1 if kind == "xyz" else z[0].size):
-        return None   # its readers leave out lines with words, such as NA, in silence, and take inf for missing
+    if kind in ("asc", "xyz") and not are_blocks and is_broken(file, z.size if kind == "xyz" else len(z)):
+        return None   # its readers leave out lines that are no rows, in silence, and take inf for missing
+    if kind == "xyz" and x is not None and not (np.diff(x) > 0).all():
+        return None   # which tells the line
     if are_lines and not known and z.ndim == 2 and z.shape[1] == 3 and len(z) > 3:
         return None   # lines of points x, y, z with missing ones
     return x, z, dict(zip(SIDES, sides)), unit or own or None
@@ -150,17 +154,18 @@ def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
         return opened.read(number)
 
 
-def is_broken(file: str | os.PathLike[str], columns: int) -> bool:
-    """Whether some of the lines of so many words have inf, or words that are no numbers beside or below numbers."""
-    with open(file, "rb") as opened:
-        lines = [words for line in opened if len(words := line.replace(b",", b" ").split()) == columns
-                 and not words[0].startswith(b"#")]
+def is_broken(file: str | os.PathLike[str], rows: int) -> bool:
+    """Whether the last lines of a text, so many, are not rows of as many numbers each, or lines above them have numbers
+    alone, or beside words as many as in a row."""
+    text = Path(file).read_bytes()
+    if text.startswith((b"\xff\xfe", b"\xfe\xff")):
+        text = text.decode("utf-16", "replace").encode()
+    lines = [words for line in text.translate(bytes.maketrans(b",;", b"  ")).splitlines()
+             if (words := line.split()) and not words[0].startswith(b"#")]
     numbers = [sum(map(bool, map(WORD.fullmatch, words))) for words in lines]
-    if columns not in numbers:
-        return False
-    first = numbers.index(columns)
-    return (any(0 < n < columns for n in numbers) or 0 in numbers[first:] or
-            any(word.lower().lstrip(b"+-") in (b"inf", b"infinity") for words in lines[:first] for word in words))
+    widths, head = {*numbers[-rows:], *map(len, lines[-rows:])}, lines[:-rows]
+    return len(lines) < rows or len(widths) > 1 or any(
+        n and len(words) in {n, *widths} for n, words in zip(numbers, head))
 
 
 class NoHeights(Exception):
@@ -187,6 +192,13 @@ def unit_of(channel: Any) -> Any:
     told = getattr(channel, "data_unit", None) or channel.unit
     # Some readers tell the units of places and values together.
     return told[-1] if isinstance(told, tuple) else told
+
+
+def unit_of_sides(channel: Any) -> str | None:
+    """The unit of length of the sides in a text or a file .sur, which the reader converts to that of the heights."""
+    told = channel.info.get("raw_metadata")
+    unit = unit_name(told.get("xunit") or told.get("delta_x_unit")) if isinstance(told, dict) else None
+    return unit if unit in LENGTHS and unit_name(channel.unit) in LENGTHS else None
 
 
 def has_heights(channel: Any) -> bool:

@@ -113,6 +113,9 @@ def plot_regions(result: Result, ax: Any, style: dict[str, Any]) -> Any:
         ax.plot([], [], "s", color=colour, label=words)
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=4, ncols=2, frameon=False)
     ax.set(title=title(result), aspect="equal", **{f"{axis}label": scaled(facts, axis)[1] for axis in "xy"})
+    # A layout leaves place for title and legend where the one before has put them; the third one hardly moves them.
+    for _ in range(2):
+        ax.figure.canvas.figure.draw_without_rendering()
     return ax
 
 
