@@ -380,6 +380,12 @@ class Plot(ProgramTest):
         self.assertEqual("picture: hertz.summary.png\n", said)
         self.assertIn("no loads over p*", complaints)
 
+    def test_all_loads_are_on_the_axis_of_adhesion(self):
+        """The loads in full contact too."""
+        self.run_deck("full", "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0, 3 /\n"
+                      "&interface work_of_adhesion = 0.02 /\n")
+        self.assertIn(" 2.5 3 ", self.drawn("full.adhesion.dat"))
+
     def test_fields_with_adhesion(self):
         """They stand beside the summary and edges with adhesion; contact is where the gap is closed, under tension too;
         a load that is separated is left out, which is said; a load of 0 is 0."""
