@@ -174,10 +174,15 @@ contains
          end associate
       end if
       number = count([(any([(results%stress_status(load, body), body=1, size(results%largest_stresses, 2))] /= &
-                           results%loads(load)%status), load=1, size(results%loads))])
+                           results%loads(load)%status .and. .not. results%has_infinite_stress(load)), &
+                      load=1, size(results%loads))])
       if (number > 0) call logger%note('the error of the largest stress is more than half of it at '// &
          integer_text(number)//' of '//integer_text(size(results%loads))//' loads: give a better accuracy, or more '// &
          'grid_points')
+      number = count([(results%has_infinite_stress(load), load=1, size(results%loads))])
+      if (number > 0) call logger%note('at '//integer_text(number)//' of '//integer_text(size(results%loads))// &
+         ' loads contact ends at a border or at a step, where stresses are infinite: the largest stress is that of '// &
+         'the grid')
    end subroutine find_stresses
 
    !> Solves partial slip under all loads and tangential loads, or the contact with adhesion, if the deck asks for it.
