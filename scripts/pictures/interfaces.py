@@ -114,7 +114,7 @@ def adhesion(picture):
     units = {load: "", area: "", "approach": "Delta"}
     scales = {name: Quantity([table], name, unit) for name, unit in units.items()}
     # Towards full contact the tension grows without bound, and the load of a ball with its contact.
-    seen = [point[load] for point in critical + loads if point["branch"] != "none"] or [0.0]
+    seen = [point[load] for point in critical + loads if math.isfinite(point[load])] or [0.0]
     most = max(point[load] for point in curve) if free else max(seen)
     low, high = min(0.0, *seen) - 0.12*(most - min(seen)), most + 0.06*(most - min(seen))
     shown = [point for point in curve if low <= point[load] <= high] + critical + loads

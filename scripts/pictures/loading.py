@@ -6,7 +6,7 @@ import pathlib
 from axes import Axis, Scale, a_decade, axis, decades, marked_up
 from picture import AREA, DELTA, GAP, MEAN_GAP, MOST_CURVES, OVER, P, P_BAR, P_MAX, P_STAR, RIGHT, X, Y, \
     CannotBeDrawn, Quantity, entry, mean_pressure_axis
-from table import Table
+from table import NoPicture, Table
 
 # Converged values, of the tree or, installed, beside this folder.
 HERE = pathlib.Path(__file__).resolve().parent
@@ -178,7 +178,7 @@ def load_axis(table):
     """The loads of a table over p*, and their axis."""
     loads = table.column("pbar_over_pstar")
     if not loads:
-        raise CannotBeDrawn("it has no loads over p*: a surface with free edges has no p*")
+        raise NoPicture("it has no loads over p*: a surface with free edges has no p*")
     return loads, Axis.of(loads, f"mean pressure {P_BAR}/{P_STAR}", up_to=1.0)
 
 

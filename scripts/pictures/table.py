@@ -36,11 +36,16 @@ UNLABELLED = {"pressure", "length"}
 # With adhesion loads below this part of the largest are 0 within their error.
 ROUNDING = 1e-6
 HEAD_NUMBER = re.compile(r"(Delta|p\*|e_star|cell_x|cell_y|edge_level)\[([^]]*)\] = ([^ ,]+)")
+OF_SEVERAL_DECKS = "this is a table of several decks; draw their summaries, with --compare in one picture"
 MAGIC = b"\x93NUMPY\x01\x00"
 
 
 class NotATable(ValueError):
-    """The file is no table of wavycon, has no rows, or has no picture."""
+    """The file is no table of wavycon, or has no rows."""
+
+
+class NoPicture(NotATable):
+    """The table is one of those that have no picture."""
 
 
 class Block:
@@ -93,9 +98,7 @@ class Table:
         if self.kind is None:
             raise NotATable("this is not a table of this version of wavycon: none has these columns")
         if self.kind == "percolation":
-            raise NotATable("this table has no picture: it is one load and its error")
-        if {"deck", "case"} <= set(self.names):
-            raise NotATable("this is a table of several decks; draw their summaries, with --compare in one picture")
+            raise NoPicture("this table has no picture: it is one load and its error")
         self.family = "adhesion_" if self._bare_name.endswith(f".adhesion_{self.kind}") else ""
         self.adhesive = self.adhesive or bool(self.family)   # a map in numpy's format has its name alone
         if not any(len(next(iter(block.columns.values()))) for block in self.blocks):
@@ -126,6 +129,8 @@ class Table:
                     if not words:
                         continue
                     if not self.names:
+                        if {"deck", "case"} <= set(re.findall(r"\w+", line)):
+                            raise NotATable(OF_SEVERAL_DECKS)
                         if "," in line:
                             raise NotATable("this table has commas, for spreadsheets; draw the .dat of the same run")
                         if not all(re.fullmatch(r"[A-Za-z]\w*", word) for word in words):

@@ -3,8 +3,8 @@
 module wavycon_c_functions
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_procpointer, c_funptr, c_int, c_ptr, &
       c_size_t
-   use wavycon_c_handles, only: c_call, handle_type, new_handle, not_a_handle, put_text, text_at
-   use wavycon_deck_session, only: await_solve, pick_number
+   use wavycon_c_handles, only: c_call, handle_type, new_handle, put_text, text_at
+   use wavycon_deck_session, only: await_solve, no_name, pick_number
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_reference, only: key_json
    use wavycon_kinds, only: dp
@@ -16,6 +16,9 @@ module wavycon_c_functions
    use wavycon_version, only: version
    implicit none (type, external)
    private
+
+   !> The kinds of objects that have numbers and texts.
+   character(*), parameter :: kinds = 'kinds scene, solution and table'
 
 contains
 
@@ -126,7 +129,7 @@ contains
                              real([this%contents%table%rows, size(this%contents%table%columns)], dp), &
                              text_at(name), value, this%trouble)
          case default
-            call fatal_error(this%trouble, exit_bad_input, not_a_handle//'scene')
+            call this%refuse(kinds)
          end select
       end if
       get = this%code()
@@ -178,12 +181,19 @@ contains
             call this%contents%owner%scene%text(text_name, words, this%trouble, this%contents%solution)
          case ('table')
             call this%contents%table%text(text_name, words)
+            if (.not. allocated(words)) &
+               call no_name("text '"//text_name//"'", text_name, ['columns', 'words  '], this%trouble)
          case default
-            if (text_name == 'version' .and. .not. c_associated(object)) words = version
-            if (text_name == 'keys' .and. .not. c_associated(object)) words = key_json()
+            if (c_associated(object)) then
+               call this%refuse(kinds)
+            else if (text_name == 'version') then
+               words = version
+            else if (text_name == 'keys') then
+               words = key_json()
+            else
+               call no_name("text '"//text_name//"' of NULL", text_name, ['version', 'keys   '], this%trouble)
+            end if
          end select
-         if (.not. (allocated(words) .or. allocated(this%trouble))) &
-            call fatal_error(this%trouble, exit_bad_input, not_a_handle//"scene, or there is no text '"//text_name//"'")
       end if
       needed = 0
       if (.not. allocated(this%trouble)) needed = put_text(words, buffer, bytes)

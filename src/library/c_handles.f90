@@ -16,13 +16,10 @@ module wavycon_c_handles
    implicit none (type, external)
    private
 
-   public :: c_call, c_progress, handle_type, new_handle, not_a_handle, progress_callback, put_text, text_at
+   public :: c_call, c_progress, handle_type, new_handle, progress_callback, put_text, text_at
 
    !> The number by which an object of this library is recognised in memory.
    integer, parameter :: our_mark = 1935764579
-
-   !> The start of the message for a handle that is NULL or of another kind.
-   character(*), parameter :: not_a_handle = 'the handle is NULL or not one of the kind '
 
    abstract interface
       !> wavycon_progress of wavycon.h.
@@ -48,6 +45,7 @@ module wavycon_c_handles
       integer :: mark = our_mark
       character(8) :: kind = ''                       !! 'error', 'scene', 'solution' or 'table'
       type(error_type) :: error                       !! the outcome of the last call
+      logical :: lacks_object = .false.               !! whether that call failed to make an object
       type(deck_session) :: scene
       type(solved_load) :: solution
       type(memory_table) :: table
@@ -62,9 +60,10 @@ module wavycon_c_handles
       type(handle_type), pointer :: made => null()       !! the object that the call makes; null if it makes none
       type(error_type), allocatable :: trouble           !! the error of the call; not allocated: success
       type(c_ptr), private :: error = c_null_ptr         !! handle of the caller's error object
-      logical, private :: has_object = .false.           !! whether the handle that the caller gives is not null
+      logical, private :: got_null = .false.             !! whether the handle that the caller gives is null
+      logical, private :: makes_object = .false.         !! whether it is a call of a function that makes an object
    contains
-      procedure :: begins, code, new_object
+      procedure :: begins, code, new_object, refuse
    end type c_call
 
    !> The object for a handle that is null or not one of this library: its kind is empty.
@@ -102,11 +101,10 @@ contains
       self%error = error
       if (present(object)) then
          self%contents => object_at(object)
-         self%has_object = c_associated(object)
+         self%got_null = .not. c_associated(object)
       end if
       if (present(object_kind)) then
-         if (self%contents%kind /= object_kind) &
-            call fatal_error(self%trouble, exit_bad_input, not_a_handle//object_kind)
+         if (self%contents%kind /= object_kind) call self%refuse('kind '//object_kind)
       end if
       if (present(are_there) .and. .not. allocated(self%trouble)) then
          missing = findloc(are_there, .false., dim=1)
@@ -120,6 +118,18 @@ contains
       begins = .not. allocated(self%trouble)
    end function begins
 
+   !> Reports that the handle is NULL or of another kind.
+   subroutine refuse(self, kinds)
+      class(c_call), intent(inout) :: self
+      character(*), intent(in) :: kinds   !! 'kind' and the kind that the function takes, or 'kinds' and their list
+
+      character(:), allocatable :: words
+
+      words = 'the handle is not one of the '//kinds
+      if (self%got_null) words = 'the handle is NULL'
+      call fatal_error(self%trouble, exit_bad_input, words)
+   end subroutine refuse
+
    !> Ends a call: stores its outcome in the caller's error object, and returns its code, 0 for success. If a call
    !> failed to make an object, later calls that get NULL in its place do not replace the error of the first call.
    integer(c_int) function code(self)
@@ -132,9 +142,9 @@ contains
       if (allocated(self%trouble)) code = int(self%trouble%status, c_int)
       caller => object_at(self%error)
       if (caller%kind == 'error') then
-         is_consequence = code /= exit_fine .and. caller%error%status /= exit_fine
-         if (is_consequence) is_consequence = index(self%trouble%message, not_a_handle) == 1 .and. .not. self%has_object
+         is_consequence = code /= exit_fine .and. self%got_null .and. caller%lacks_object
          if (.not. is_consequence) then
+            caller%lacks_object = code /= exit_fine .and. self%makes_object
             caller%error = error_type(code, '')
             if (allocated(self%trouble)) caller%error = self%trouble
          end if
@@ -154,6 +164,7 @@ contains
       else if (associated(self%made)) then
          call release(self%made)
       end if
+      self%makes_object = .true.
       ignored = self%code()
    end function new_object
 

@@ -11,7 +11,7 @@ module wavycon_deck_session
    use wavycon_key_table, only: choice_value, key_index
    use wavycon_kinds, only: dp
    use wavycon_load_group, only: check_load_group, list_load_keys
-   use wavycon_memory_table, only: memory_table, of_words
+   use wavycon_memory_table, only: longest_column, memory_table, of_words
    use wavycon_methods, only: why_chosen, without_errors
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_notes, only: note_loads, note_scene
@@ -33,7 +33,7 @@ module wavycon_deck_session
    implicit none (type, external)
    private
 
-   public :: await_solve, check_ready, deck_session, pick_number, solved_load
+   public :: await_solve, check_ready, deck_session, no_name, pick_number, solved_load
 
    integer, parameter :: few = 12   ! names that a message lists
 
@@ -407,17 +407,25 @@ contains
       real(dp), intent(inout) :: number            !! unchanged in case of an error
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: there
       integer :: i
 
       i = findloc(names == name, .true., dim=1)
       if (i > 0) number = numbers(i)
-      if (i > 0) return
+      if (i == 0) call no_name("number '"//name//"'", name, names, error)
+   end subroutine pick_number
+
+   !> Reports a name that does not exist, with the nearest one that does, or with those of a short list.
+   subroutine no_name(what, name, names, error)
+      character(*), intent(in) :: what             !! what does not exist, such as "number 'p_stra'"
+      character(*), intent(in) :: name, names(:)   !! its name; those that exist
+      type(error_type), allocatable, intent(out) :: error
+
+      character(:), allocatable :: there
+
       there = ''
       if (size(names) <= few) there = '; there are '//listed(names)
-      call fatal_error(error, exit_bad_input, "there is no number '"//name//"'"// &
-                       did_you_mean(name, names, "'", "'", there))
-   end subroutine pick_number
+      call fatal_error(error, exit_bad_input, 'there is no '//what//did_you_mean(name, names, "'", "'", there))
+   end subroutine no_name
 
    !> A text by its name, of a solved load or of the session. Errors: exit_bad_input for a name that does not exist.
    subroutine text(self, name, words, error, solved)
@@ -475,7 +483,16 @@ contains
             words = trim(adjustl(words))
          end if
       end associate
-      if (.not. allocated(words)) call fatal_error(error, exit_bad_input, "there is no text '"//name//"'")
+      if (allocated(words)) return
+      if (present(solved)) then
+         associate (columns => solved%summary%columns)
+            call no_name("text '"//name//"'", name, &
+                         [character(longest_column) :: 'notes', pack(columns%name, columns%kind == of_words)], error)
+         end associate
+      else
+         call no_name("text '"//name//"'", name, [character(13) :: 'notes', 'solver', 'method', 'why_chosen', &
+                      'pressure_unit', 'length_unit', 'resolved_deck', 'order', 'tables'], error)
+      end if
    end subroutine text
 
    !> Checks that a session is open and, if a load is needed, that it has solved it. Waits until no other thread makes a

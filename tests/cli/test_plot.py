@@ -375,6 +375,16 @@ class Plot(ProgramTest):
         self.assertEqual(6, len(re.findall(r"M([\d.]+),[\d.]+ L\1,", paths)))
         self.run_deck("hertz", DECKS["free"].replace("spots = t", "theory = t") + "\n")
         self.assertIn("no loads over p*", self.plot("hertz.theory.dat", status=3)[1])
+        # Beside others it is left out.
+        said, complaints = self.plot("hertz.theory.dat", "hertz.summary.dat")
+        self.assertEqual("picture: hertz.summary.png\n", said)
+        self.assertIn("no loads over p*", complaints)
+
+    def test_all_loads_are_on_the_axis_of_adhesion(self):
+        """The loads in full contact too."""
+        self.run_deck("full", "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0, 3 /\n"
+                      "&interface work_of_adhesion = 0.02 /\n")
+        self.assertIn(" 2.5 3 ", self.drawn("full.adhesion.dat"))
 
     def test_fields_with_adhesion(self):
         """They stand beside the summary and edges with adhesion; contact is where the gap is closed, under tension too;
@@ -452,8 +462,9 @@ class Plot(ProgramTest):
         self.assertIn("no rows", self.plot("bad/head.summary.dat", status=3)[1])
         self.assertEqual("plot: nowhere.dat: No such file or directory\n", self.plot("nowhere.dat", status=3)[1])
         self.plot("bad", status=3)
-        self.run_deck("auto", None, "--table", "bad/all.dat")
-        self.assertIn("several decks", self.plot("bad/all.dat", status=3)[1])
+        for name in "bad/all.dat", "bad/all.csv":
+            self.run_deck("auto", None, "--table", name)
+            self.assertIn("draw their summaries", self.plot(name, status=3)[1])
         # Tables that have no picture say so, or whose picture shows the same.
         self.run_deck("tight", "&surface kind = 'wave_2d' /\n&load percolates = 'gap' /\n&output csv = t /\n")
         self.assertIn("has no picture: it is one load", self.plot("tight.percolation.dat", status=3)[1])

@@ -196,13 +196,21 @@ static void loads(wavycon_scene scene, wavycon_solution solution)
     NOTHING(wavycon_solve(error, (wavycon_scene)solution, "pbar_over_pstar", 0.5));
     NOTHING(wavycon_solve_load(error, NULL, 0));
     NOTHING(wavycon_solve_load(error, (wavycon_scene)error, 0));
-    /* The first failure keeps its message beside NULL, not beside another object. */
-    check(has_message("the handle is NULL or not one of the kind scene"), "another kind", __LINE__);
+    /* A call that could not make an object keeps its message beside NULL, not beside another object. */
+    check(has_message("the handle is not one of the kind scene"), "another kind", __LINE__);
     NOTHING(wavycon_get_text(error, scene, "colour", NULL, 0));
-    check(has_message("there is no text 'colour'"), "another text", __LINE__);
+    check(has_message("there is no text 'colour'; there are notes, solver, method, why_chosen, pressure_unit, "
+                      "length_unit, resolved_deck, order, tables"), "another text", __LINE__);
+    NOTHING(wavycon_get_text(error, scene, "lenght_unit", NULL, 0));
+    check(has_message("there is no text 'lenght_unit'; did you mean 'length_unit'?"), "the nearest text", __LINE__);
+    NOTHING(wavycon_get_text(error, solution, "statsu", NULL, 0));
+    check(has_message("there is no text 'statsu'; did you mean 'status'?"), "that of a solution", __LINE__);
+    NOTHING(wavycon_get_text(error, NULL, "versoin", NULL, 0));
+    check(has_message("there is no text 'versoin' of NULL; did you mean 'version'?"), "that of NULL", __LINE__);
     double value;
     REFUSED(wavycon_get(error, error, "loads", &value));
-    check(has_message("the handle is NULL or not one of the kind scene"), "another kind of object", __LINE__);
+    check(has_message("the handle is not one of the kinds scene, solution and table"), "another object",
+          __LINE__);
     NOTHING(wavycon_solve_load(error, scene, 0));
     REFUSED(wavycon_set_progress(error, NULL, NULL, NULL));
     REFUSED(wavycon_set_progress(error, (wavycon_scene)solution, NULL, NULL));
@@ -410,6 +418,16 @@ static void chains(void)
     NOTHING(wavycon_get_text(error, solution, "status", message, sizeof message));
     wavycon_get_message(error, message, sizeof message);
     check(strstr(message, "'-5'") != NULL, "the message of the first call of a chain", __LINE__);
+    /* A failed call that makes no object begins no chain. */
+    REFUSED(wavycon_set_threads(error, 0));
+    REFUSED(wavycon_set_progress(error, NULL, NULL, NULL));
+    check(has_message("the handle is NULL"), "NULL behind a call that makes no object", __LINE__);
+    REFUSED(wavycon_set_threads(error, 0));
+    REFUSED(wavycon_get(error, NULL, "mean_gap", &value));
+    check(has_message("the handle is NULL"), "a number of NULL", __LINE__);
+    REFUSED(wavycon_set_threads(error, 0));
+    NOTHING(wavycon_new_table(error, NULL, "summary"));
+    check(has_message("the handle is NULL"), "a table of NULL", __LINE__);
 }
 
 /* Without an error object the return value alone tells; buffers that are NULL or small are no danger. */

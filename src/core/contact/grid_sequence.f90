@@ -227,6 +227,7 @@ contains
 
       real(dp) :: area, bend, capped_errors(3), capped_values(3), errors(3), shown(3)   ! shown: by `abrupt_edges`
       real(dp) :: deepest   ! mean indentation if all points are pressed down to the lowest one [Delta]
+      real(dp) :: below_hardness   ! largest pressure of the grid over the hardness, at most 1
       logical :: has_corners, resolved
       type(grid_edge) :: capped   ! H - p, or the overlap where p = H: its edge is that of the area at the hardness
       type(grid_edge) :: uncertain   ! 1 at points whose contact does not follow from their height, elsewhere -h
@@ -257,6 +258,10 @@ contains
       else
          call grid_peak_pressure(answer%edge, answer%value(peak_pressure), bend, surface)
       end if
+      below_hardness = min(answer%value(peak_pressure)/surface%hardness, 1.0_dp)
+      has_corners = ends_at_corners(surface, answer%edge%pressure_or_gap)
+      ! The pressure at a corner is infinite, and with a hardness it is the hardness.
+      if (has_corners .and. surface%has_hardness()) answer%value(peak_pressure) = surface%hardness
       if (answer%value(peak_pressure) >= surface%hardness) bend = 0.0_dp
       answer%value(peak_pressure) = min(answer%value(peak_pressure), surface%hardness)
       call answer%history%push(answer%main_values(surface))
@@ -267,7 +272,6 @@ contains
             errors = max(errors, hidden_gap_errors(surface, answer%state%slab%points, mean_pressure, 1.0_dp - area))
       end if
       associate (p => answer%edge%pressure_or_gap)
-         has_corners = ends_at_corners(surface, p)
          if (surface%has_steps) then
             ! Where contact ends with a block the points in contact give the area exactly. Where contact or height alone
             ! changes between two neighbours, the edge is uncertain by half a step.
@@ -280,7 +284,7 @@ contains
       end associate
       if (.not. area > 0.0_dp) errors(2) = unknown
       answer%error(main_quantities) = errors
-      if (has_corners .and. answer%value(peak_pressure) < surface%hardness) answer%value(peak_pressure) = unknown
+      if (has_corners .and. .not. surface%has_hardness()) answer%value(peak_pressure) = unknown
       if (.not. surface%has_hardness()) return
       answer%value(contact_area) = max(area, mean_pressure/surface%hardness)
       call capped%fetch_neighbours()
@@ -292,6 +296,8 @@ contains
       ! Between the points the pressure may reach H although no point does.
       if (answer%value(peak_pressure) >= surface%hardness) &
          capped_errors = max(capped_errors, unresolved_errors(surface, capped, bend=0.0_dp))
+      if (has_corners) &
+         capped_errors(2) = max(capped_errors(2), hidden_strip(below_hardness, answer%edge))
       if (surface%dimension == 1 .and. estimated) then
          shown = abrupt_edges(answer%edge, capped)
          ! The bound P/H may have corrected the areas.
@@ -337,5 +343,19 @@ contains
             (surface%has_steps .or. any(p([1, m], :) > 0.0_dp) .or. (n > 1 .and. any(p(:, [1, n]) > 0.0_dp)))
       end associate
    end function ends_at_corners
+
+   !> The area fraction at the hardness that a grid may miss at corners, (C23a).
+   real(dp) function hidden_strip(below_hardness, edge)
+      real(dp), intent(in) :: below_hardness   !! largest pressure of the grid over the hardness
+      type(grid_edge), intent(in) :: edge      !! after `fetch_neighbours`
+
+      real(dp) :: steps   ! length of the edge of contact in steps
+
+      associate (p => edge%pressure_or_gap, m => size(edge%pressure_or_gap, 1), n => size(edge%pressure_or_gap, 2))
+         steps = edge_crossings(edge) + count(p([1, m], :) > 0.0_dp)
+         if (n > 1) steps = steps + count(p(:, [1, n]) > 0.0_dp)
+         hidden_strip = 0.5_dp*below_hardness**2*steps/size(p)
+      end associate
+   end function hidden_strip
 
 end module wavycon_grid_sequence

@@ -32,6 +32,7 @@ module wavycon_map_statistics
       character(:), allocatable :: length_unit     !! unit of length that the file names, or the deck in its place
       !> Name of the one of two maps whose file names no unit while the other's does; not allocated if there is none.
       character(:), allocatable :: without_unit
+      logical :: scales_unit = .false.             !! whether the deck scales heights whose file names their unit
       type(map_changes) :: changes                 !! what was done to the measured map
       character(:), allocatable :: path            !! absolute path of the file; empty if there is no file
    contains

@@ -21,6 +21,7 @@ module wavycon_command_line
    !> A run of a deck, with settings that replace keys of the deck.
    type :: run_type
       character(:), allocatable :: path
+      integer :: deck = 0   !! number of the deck in the command line
       type(setting_type), allocatable :: settings(:)
    end type run_type
 
@@ -225,6 +226,7 @@ contains
             rest = rest/size(sweeps(i)%values)
          end do
          runs(r)%path = decks(rest + 1)%path
+         runs(r)%deck = rest + 1
       end do
    end subroutine make_runs
 

@@ -128,6 +128,7 @@ contains
 
       type(error_type), allocatable :: error
       type(deck_text_type) :: text
+      character(:), allocatable :: advice
       character(:), allocatable :: problems, shown   ! of one run, with its deck's path; all that were shown
       integer :: i, j
       logical :: is_read
@@ -171,9 +172,12 @@ contains
          end do
          if (j == i) cycle
          associate (one => scenes(j)%scene, other => scenes(i)%scene)
+            advice = 'Give them different cases.'
+            if (one%deck_path == other%deck_path) advice = 'The deck is given twice.'
+            if (command_line%runs(i)%deck == command_line%runs(j)%deck) advice = 'A value stands twice in a sweep.'
             call fatal_error(error, exit_bad_input, escaped(one%deck_path)//' and '//escaped(other%deck_path)// &
                              ' would write the same files: both are case '//other%case//' in '// &
-                             escaped(other%directory)//'. Give them different cases.')
+                             escaped(other%directory)//'. '//advice)
          end associate
          if (.not. command_line%options%keep_going%is_true) call stop_on(error)
          call show(error)

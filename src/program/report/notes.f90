@@ -140,6 +140,8 @@ contains
       if (map%lacks_missing_value) call logger%note('no height of the file has the missing_value of the deck')
       if (allocated(map%without_unit)) call logger%note(escaped(map%without_unit)//' names no unit, as the other '// &
          'map does: its heights are taken in ['//scene%length_unit//']. height_scale and file2_scale change that')
+      if (map%scales_unit) call logger%note('the file names the unit of its heights, and height_scale or '// &
+         'file2_scale multiplies them as well')
       if (allocated(scene%two_maps)) then
          do i = 1, size(scene%two_maps)
             call note_filled(scene%two_maps(i), ' of body '//integer_text(i))

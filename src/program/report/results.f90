@@ -13,8 +13,8 @@ module wavycon_results
    use wavycon_output_file, only: output_file
    use wavycon_partial_slip, only: partial_slip
    use wavycon_plain_text, only: exact_number, integer_text
-   use wavycon_quantities, only: approach, area_at_hardness, elastic_energy, find_quantity, load_at_hardness, &
-      number_of_kinds, of_area, of_energy, of_length, of_pressure, or_nan, quantities
+   use wavycon_quantities, only: approach, area_at_hardness, elastic_energy, find_quantity, is_known, &
+      load_at_hardness, number_of_kinds, of_area, of_energy, of_length, of_pressure, or_nan, peak_pressure, quantities
    use wavycon_scene, only: scene_type
    use wavycon_solution_record, only: is_good_status, not_accurate, status_code, status_name, unresolved
    use wavycon_units, only: makes_newton
@@ -53,7 +53,7 @@ module wavycon_results
       type(memory_table), pointer :: memory => null()        !! if associated, a table is written to it, not to a file
    contains
       procedure :: find_spots, find_slopes, swap_contacts, open_table, begin_block
-      procedure :: unit_in_words, in_p_star, number, mean_pressure, stress_status, is_solved_in
+      procedure :: unit_in_words, in_p_star, number, mean_pressure, stress_status, is_solved_in, has_infinite_stress
    end type results_type
 
 contains
@@ -160,18 +160,28 @@ contains
       end do
    end function unit_in_words
 
-   !> The status of the largest stresses of a load in a body: the status of the load or, where the error estimate of a
-   !> stress exceeds `largest_stress_error` of the stress, `unresolved` if the deck gives the grid, else `not_accurate`.
+   !> The status of the largest stresses of a load in a body: the status of the load or, where a stress is infinite or
+   !> its error estimate exceeds `largest_stress_error` of it, `unresolved` if the deck gives the grid, else
+   !> `not_accurate`.
    pure integer function stress_status(self, load, body) result(status)
       class(results_type), intent(in) :: self      !! with `largest_stresses`
       integer, intent(in) :: load, body            !! numbers of the load and of the body in the deck's order
 
       status = self%loads(load)%status
       if (.not. is_good_status(status)) return
-      if (.not. any(is_doubtful(self%largest_stresses(:, body, load)))) return
+      if (.not. (any(is_doubtful(self%largest_stresses(:, body, load))) .or. self%has_infinite_stress(load))) return
       status = not_accurate
       if (all(self%traits%given_grid > 0)) status = unresolved
    end function stress_status
+
+   !> Whether the largest stress of a load is infinite, as its peak pressure is: where contact ends at a border or step.
+   pure logical function has_infinite_stress(self, load)
+      class(results_type), intent(in) :: self
+      integer, intent(in) :: load    !! number of the load in the deck's order
+
+      has_infinite_stress = self%solver%surface%has_free_edges .and. self%loads(load)%is_good() .and. &
+                            .not. is_known(self%loads(load)%value(peak_pressure))
+   end function has_infinite_stress
 
    !> Whether the error estimate of a largest stress exceeds `largest_stress_error` of the stress.
    elemental logical function is_doubtful(largest)

@@ -141,7 +141,6 @@ contains
       type(results_type), intent(inout) :: results   !! with a group &stress and all loads solved with their fields
       type(run_log), intent(inout) :: logger         !! shows the progress
 
-      character(:), allocatable :: of_loads
       class(stress_fields), allocatable :: fields
       integer :: body, load, number
       integer(int64), allocatable :: words(:)   ! the largest stresses of all loads
@@ -175,13 +174,26 @@ contains
          end associate
       end if
       number = count([(any([(results%stress_status(load, body), body=1, size(results%largest_stresses, 2))] /= &
-                           results%loads(load)%status), load=1, size(results%loads))])
-      if (number == 0) return
-      ! The library asks load by load.
-      of_loads = ' at '//integer_text(number)//' of '//integer_text(size(results%loads))//' loads'
-      if (size(results%loads) == 1) of_loads = ''
-      call logger%note('the error of the largest stress is more than half of it'//of_loads// &
-                       ': give a better accuracy, or more grid_points')
+                           results%loads(load)%status .and. .not. results%has_infinite_stress(load)), &
+                      load=1, size(results%loads))])
+      if (number > 0) call logger%note('the error of the largest stress is more than half of it'//of_loads(number)// &
+                                       ': give a better accuracy, or more grid_points')
+      number = count([(results%has_infinite_stress(load), load=1, size(results%loads))])
+      if (number > 0) call logger%note('contact ends at a border or at a step'//of_loads(number)// &
+                                       ', where stresses are infinite: the largest stress is that of the grid')
+
+   contains
+
+      !> At how many of the loads; empty for a single one, as the library asks load by load.
+      function of_loads(number) result(words)
+         integer, intent(in) :: number
+         character(:), allocatable :: words
+
+         words = ''
+         if (size(results%loads) > 1) &
+            words = ' at '//integer_text(number)//' of '//integer_text(size(results%loads))//' loads'
+      end function of_loads
+
    end subroutine find_stresses
 
    !> Solves partial slip under all loads and tangential loads, or the contact with adhesion, if the deck asks for it.

@@ -56,7 +56,9 @@ contains
          return
       end if
       map%path = full_path(path)
+      map%scales_unit = values%height_scale%is_given .and. allocated(heights%length_unit)
       if (values%file2%is_given) then
+         map%scales_unit = map%scales_unit .or. (values%file2_scale%is_given .and. allocated(second%length_unit))
          if (allocated(heights%length_unit) .and. .not. (allocated(second%length_unit) .or. &
                                                          values%file2_scale%is_given)) map%without_unit = path2
          if (allocated(second%length_unit) .and. .not. (allocated(heights%length_unit) .or. &
