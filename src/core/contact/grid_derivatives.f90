@@ -70,7 +70,7 @@ contains
       if (with_changes) call add_changes(y)
       call differentiate(record%pbar_over_pstar, bound, y, step, 1.0_dp, values, errors, is_unused)
       if (too_far) then
-         ! Where a derivative grows without bound the two steps give values that differ by more than the error of either.
+         ! Where a derivative grows without bound the two steps give values that differ by more than either's error.
          before(:, :, [-2, 2]) = before(:, :, [-1, 1])
          before(:, :, -1) = without_last(y(:, :, -1))
          before(:, :, 1) = without_last(y(:, :, 1))

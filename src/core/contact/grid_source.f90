@@ -5,7 +5,7 @@ module wavycon_grid_source
    use wavycon_contact_contours, only: contact_contour, make_strips, rotate_contours, shift_contour, trace_edges
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
-   use wavycon_grid_area, only: edge_crossings, grid_strip_edges
+   use wavycon_grid_area, only: grid_strip_edges
    use wavycon_grid_derivatives, only: differentiate_on_grid
    use wavycon_grid_edge, only: grid_edge, make_grid_edge
    use wavycon_grid_error, only: change_history
@@ -136,7 +136,10 @@ contains
       !> the series has twice as many.
       integer(int64), parameter :: numbers_a_point = 10
       integer :: cells   ! cells along x and y of the series: the map alone, or the map and as many zeros
-      real(dp) :: crossings, error
+      integer :: j
+      real(dp) :: crossings       ! pairs of neighbouring points between which contact ends, over the points
+      real(dp) :: edge_pressure   ! mean pressure of those of them that are in contact [p*]
+      real(dp) :: error
       real(dp), allocatable :: of_approach   ! error of the approach [Delta]; if not allocated, the argument is absent
       real(dp), allocatable :: values(:, :)
 
@@ -158,7 +161,14 @@ contains
       else if (is_known(self%record%error(approach)) .and. .not. surface%kernel%has_layer()) then
          of_approach = self%record%error(approach)
       end if
-      crossings = edge_crossings(self%edge)/product(real(self%edge%slab%points, dp))
+      crossings = 0.0_dp
+      edge_pressure = 0.0_dp
+      do j = 1, size(values, 2)
+         call add_crossings(values(2:, j), values(:size(values, 1) - 1, j))
+         if (j > 1) call add_crossings(values(:, j), values(:, j - 1))
+      end do
+      edge_pressure = edge_pressure/max(crossings, 1.0_dp)
+      crossings = crossings/real(size(values, kind=int64), dp)
       call transform%start(shape(values), self%edge%even .and. cells == 1, whole=.true.)
       call transform%series(values, pressure)
       deallocate (values)
@@ -168,9 +178,22 @@ contains
       own%repeats = .not. surface%has_free_edges
       call start_series_stress_fields(own%series_stress_fields, surface, pressure, &
                                       self%record%pbar_over_pstar/cells**2, or_nan(error), is_sampled=.true., &
-                                      approach_error=of_approach, crossings=crossings)
+                                      approach_error=of_approach, crossings=crossings, edge_pressure=edge_pressure)
       if (cells > 1) call own%remove_images(point_angle(1, self%edge%slab%points, self%edge%even))
       call move_alloc(own, answer)
+
+   contains
+
+      !> Adds pairs of neighbouring points between which contact ends, and their pressures.
+      subroutine add_crossings(here, next)
+         real(dp), intent(in) :: here(:), next(:)   !! pressures of the points and of their neighbours [p*]
+
+         associate (crosses => (here > 0.0_dp) .neqv. (next > 0.0_dp))
+            crossings = crossings + count(crosses)
+            edge_pressure = edge_pressure + sum(here + next, mask=crosses)
+         end associate
+      end subroutine add_crossings
+
    end subroutine stresses
 
    !> Derivatives with respect to the load, from solutions on the same grid at loads near by. They are unknown with a

@@ -72,8 +72,8 @@ contains
    !> Two refined places are farther apart than twice the width of the maximum at the first one: closer places lead to
    !> the same maximum. The local error is what the place adds to the error that all places at its depth have. It is
    !> large at the edge of contact and falls with depth. So where a deeper place may have a larger stress by the local
-   !> error, the places that are no deeper are given up, and deeper ones are refined. The error of the answer is at least
-   !> the largest sum of a stress and its own error, less the answer.
+   !> error, the places that are no deeper are given up, and deeper ones are refined. The error of the answer is at
+   !> least the largest sum of a stress and its own error, less the answer.
    subroutine search(fields, body, by_shear, places, answer)
       class(stress_fields), intent(inout) :: fields
       type(elastic_body), intent(in) :: body

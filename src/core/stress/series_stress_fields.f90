@@ -12,9 +12,9 @@ module wavycon_series_stress_fields
    use wavycon_stress_fields, only: start_point, stress_fields
    use wavycon_stress_kernel, only: nu_terms_of
    use wavycon_stress_tensor, only: elastic_body, no_waves, von_mises, zz
-   use wavycon_stress_tuning, only: coarsest, least_depth, least_pressure, noise_part, octave_factor, plane_points, plane_ratio, &
-      pressure_part, shallow_planes, shift_of_smooth, steps_in_shift, taylor_order, waves_in_depth, window_depth, &
-      window_points
+   use wavycon_stress_tuning, only: coarsest, least_depth, least_pressure, noise_part, octave_factor, plane_points, &
+      plane_ratio, pressure_part, shallow_planes, shift_of_smooth, steps_in_shift, taylor_order, told_of_edges, &
+      waves_in_depth, window_depth, window_points
    use wavycon_surface, only: surface_type
    implicit none (type, external)
    private
@@ -27,8 +27,8 @@ module wavycon_series_stress_fields
    !> The eight sums (S4) and the three sums of the error (S5).
    integer, parameter :: number_of_sums = 11
 
-   !> The depth of one step times the wave number from which the last octave begins.
-   real(dp), parameter :: step_in_octave = 0.5_dp*pi
+   !> The depth of half a step times the wave number from which the last octave begins.
+   real(dp), parameter :: half_step_in_octave = 0.25_dp*pi
 
    !> Pressures below this part of the largest one are rounding.
    real(dp), parameter :: rounding = 1e-13_dp
@@ -45,6 +45,7 @@ module wavycon_series_stress_fields
       real(dp), public :: pressure_error = 0.0_dp    !! error estimate of the pressure [p*]; NaN if there is none
       real(dp) :: wave_error = huge(1.0_dp)          !! E_e of (S15) [p*^2]; huge if it is unknown
       real(dp) :: edge_density = 0.0_dp              !! length of the edge of contact over the area, (S15a) [1/rad]
+      real(dp) :: edge_pressure = 0.0_dp             !! mean pressure of the points of a grid next to the edge [p*]
       real(dp) :: image_error = 0.0_dp               !! with free edges the part of `pressure_error` that images leave
       type(taylor_series), allocatable :: known(:)   !! series made by `expand` so far
       integer :: used = 0                            !! number of the one that `near` takes
@@ -62,7 +63,7 @@ contains
    !> Prepares the stresses below a pressure that is a Fourier series. Waves that the error of the pressure hides at a
    !> depth are left out there: see `pressure_part`.
    subroutine start_series_stress_fields(stress, surface, pressure, pbar_over_pstar, pressure_error, is_sampled, &
-                                         approach_error, crossings)
+                                         approach_error, crossings, edge_pressure)
       type(series_stress_fields), intent(out) :: stress
       type(surface_type), intent(in) :: surface
       type(fourier_series), intent(in) :: pressure    !! p/p* on the cell; its mean is not used
@@ -70,8 +71,9 @@ contains
       real(dp), intent(in) :: pressure_error          !! estimate of the pressure's error [p*]; NaN if there is none
       logical, intent(in) :: is_sampled               !! whether the series is the one through values at a grid's points
       real(dp), intent(in), optional :: approach_error   !! estimate of the approach's error [Delta]; absent if unknown
-      !> With approach_error: pairs of neighbouring points of a grid between which contact ends, over the points.
+      !> Pairs of neighbouring points of a grid between which contact ends, over the points; absent if unknown.
       real(dp), intent(in), optional :: crossings
+      real(dp), intent(in), optional :: edge_pressure    !! with crossings: mean pressure of these points [p*]
 
       stress%pbar_over_pstar = pbar_over_pstar
       stress%dimension = surface%dimension
@@ -81,10 +83,12 @@ contains
       call stress%waves%start(pressure, stress%side_ratio, is_sampled)
       call stress%waves%pressure%set_mean(0.0_dp)
       stress%pressure_error = pressure_error
-      if (present(approach_error)) then
+      if (present(approach_error)) &
          stress%wave_error = 2*pbar_over_pstar*approach_error*surface%stiffness/surface%length(1)
-         ! A line in any direction crosses the lines of a grid of the step h along both axes 4/(pi h) times a length.
+      ! A line in any direction crosses the lines of a grid of the step h along both axes 4/(pi h) times its length.
+      if (present(crossings)) then
          stress%edge_density = crossings*merge(1.0_dp, pi/4, surface%dimension == 1)*2*stress%waves%sampled_from/pi
+         stress%edge_pressure = edge_pressure
       end if
       call leave_out_hidden(stress, 0.0_dp)
    end subroutine start_series_stress_fields
@@ -325,7 +329,8 @@ contains
    end function error_of
 
    !> The error of the stresses at a depth that is the same at all places [p*]; NaN if there is no estimate. At the
-   !> surface it is the error of the pressure, from a depth of one step on the smaller one of (S15) and (S15a).
+   !> surface it is the error of the pressure, from a depth of half a step on the least of (S15), (S15a) and the sum of
+   !> this error and the pressure beside the edge.
    pure real(dp) function pressure_error_at(self, depth) result(error)
       class(series_stress_fields), intent(in) :: self
       real(dp), intent(in) :: depth   !! Z
@@ -337,19 +342,20 @@ contains
 
       error = self%pressure_error
       if (ieee_is_nan(error) .or. .not. self%wave_error < huge(1.0_dp)) return
-      if (depth*self%waves%sampled_from < step_in_octave) return
+      if (depth*self%waves%sampled_from < half_step_in_octave) return
       longer = max(1.0_dp, self%side_ratio)
       from = depth
       ! Without images there is no longest wave.
       if (.not. allocated(self%load)) from = min(depth, last_power*longer)
       sum_of_waves = of_lines*longer*(1.0_dp/from)**2
       if (self%dimension == 2) sum_of_waves = sum_of_waves + of_planes*self%side_ratio*(1.0_dp/from)**3
-      error = sqrt(self%wave_error*sum_of_waves)*depth/from*exp((from - depth)/longer)
+      error = min(self%pressure_error + self%edge_pressure, self%image_error &
+                  + sqrt(self%wave_error*sum_of_waves)*depth/from*exp((from - depth)/longer))
       mean_square = of_one/depth
       if (self%dimension == 2) mean_square = of_all/(2*self%waves%sampled_from*depth**2)
       near_edges = min(1.0_dp, 2*depth*self%edge_density)
-      if (near_edges > 0.0_dp) error = min(error, sqrt(self%wave_error*mean_square/near_edges))
-      error = self%image_error + error
+      if (near_edges > 0.0_dp) error = min(error, self%image_error &
+                                           + told_of_edges*sqrt(self%wave_error*mean_square/near_edges))
    end function pressure_error_at
 
    !> What is left at a depth, at most, of the ringing of a grid's series at the surface, over this (S14).
@@ -417,8 +423,8 @@ contains
    !>
    !> The first plane is the surface. The next ones, `shallow_planes` of them, lie above the depth of half of the
    !> shortest wavelength, and each is `plane_ratio` times as deep as the plane before. Deeper planes need fewer points.
-   !> Planes no deeper than this half wavelength that lie above the largest stresses below all peaks of a grid's pressure
-   !> are left out, (S16).
+   !> Planes no deeper than this half wavelength that lie above the largest stresses below all peaks of a grid's
+   !> pressure are left out, (S16).
    !> If a few windows (squares of 64 x 64 points, README.md) contain all large pressures, the planes close to the
    !> surface are computed within these windows only, which takes less time at light loads. The surface itself is
    !> computed in the whole cell: at an edge of contact the shear stress may be the largest one where the pressure is
@@ -436,8 +442,8 @@ contains
       type(fourier_series) :: series
       type(grid_transform) :: plane
       type(pressure_wave_sums) :: all_waves, waves
-      !> `top`: number of the first plane below the surface. `last`: number of the deepest plane. `shallow`: the planes 0 to this one are those of windows; -1 without
-      !> windows.
+      !> `top`: number of the first plane below the surface. `last`: number of the deepest plane. `shallow`: the planes 0
+      !> to this one are those of windows; -1 without windows.
       integer :: block(2), i, last, points(2), shallow, top
 
       call leave_out_hidden(self, 0.0_dp)
