@@ -27,8 +27,8 @@ module wavycon_series_stress_fields
    !> The eight sums (S4) and the three sums of the error (S5).
    integer, parameter :: number_of_sums = 11
 
-   !> The depth of half a step times the wave number from which the last octave begins.
-   real(dp), parameter :: half_step_in_octave = 0.25_dp*pi
+   !> The depth of one step times the wave number from which the last octave begins.
+   real(dp), parameter :: step_in_octave = 0.5_dp*pi
 
    !> Pressures below this part of the largest one are rounding.
    real(dp), parameter :: rounding = 1e-13_dp
@@ -329,7 +329,7 @@ contains
    end function error_of
 
    !> The error of the stresses at a depth that is the same at all places [p*]; NaN if there is no estimate. At the
-   !> surface it is the error of the pressure, from a depth of half a step on the least of (S15), (S15a) and the sum of
+   !> surface it is the error of the pressure, below a depth of one step the least of (S15), (S15a) and the sum of
    !> this error and the pressure beside the edge.
    pure real(dp) function pressure_error_at(self, depth) result(error)
       class(series_stress_fields), intent(in) :: self
@@ -342,7 +342,7 @@ contains
 
       error = self%pressure_error
       if (ieee_is_nan(error) .or. .not. self%wave_error < huge(1.0_dp)) return
-      if (depth*self%waves%sampled_from < half_step_in_octave) return
+      if (depth*self%waves%sampled_from <= step_in_octave) return
       longer = max(1.0_dp, self%side_ratio)
       from = depth
       ! Without images there is no longest wave.

@@ -114,7 +114,7 @@ module wavycon_stress_tuning
    real(dp), parameter, public :: octave_factor = 2.0_dp
       !! Error of a grid's stress near the edge of contact over the amplitude of the waves of the last octave, (S5).
       !! Smaller: estimates below the true error. Larger: estimates that are too large.
-   real(dp), parameter, public :: told_of_edges = 0.75_dp
+   real(dp), parameter, public :: told_of_edges = 0.6_dp
       !! Part of (S15a) that is told as the error of a grid's stress at a depth: its energy follows from that of the
       !! approach, which is mostly told ten times too large. Smaller: estimates below the true error. Larger: estimates
       !! that are too large.
