@@ -205,8 +205,8 @@ static void loads(wavycon_scene scene, wavycon_solution solution)
     check(has_message("there is no text 'lenght_unit'; did you mean 'length_unit'?"), "the nearest text", __LINE__);
     NOTHING(wavycon_get_text(error, solution, "statsu", NULL, 0));
     check(has_message("there is no text 'statsu'; did you mean 'status'?"), "that of a solution", __LINE__);
-    NOTHING(wavycon_get_text(error, NULL, "versoin", NULL, 0));
-    check(has_message("there is no text 'versoin' of NULL; did you mean 'version'?"), "that of NULL", __LINE__);
+    NOTHING(wavycon_get_text(error, NULL, "versions", NULL, 0));
+    check(has_message("there is no text 'versions' of NULL; did you mean 'version'?"), "that of NULL", __LINE__);
     double value;
     REFUSED(wavycon_get(error, error, "loads", &value));
     check(has_message("the handle is not one of the kinds scene, solution and table"), "another object",
@@ -264,8 +264,8 @@ static void names(wavycon_scene scene, wavycon_solution solution, wavycon_table 
     REFUSED(wavycon_get_column(error, (wavycon_table)scene, "load", 1, column));
     IS_NULL(wavycon_get_column(error, table, NULL, 1, column), "wavycon_get_column: name");
     REFUSED(wavycon_get_column(error, table, "stress", 1, column));
-    REFUSED(wavycon_get_column(error, table, "perimetre", 1, column));
-    check(has_message("the table has no column 'perimetre'; did you mean 'perimeter'?"), "the nearest column", __LINE__);
+    REFUSED(wavycon_get_column(error, table, "perimeters", 1, column));
+    check(has_message("the table has no column 'perimeters'; did you mean 'perimeter'?"), "the nearest column", __LINE__);
     REFUSED(wavycon_get(error, solution, "area", &value));
     check(has_message("there is no number 'area'; did you mean 'contact_area'?"), "the nearest number", __LINE__);
     IS_NULL(wavycon_get_column(error, table, "load", 1, NULL), "wavycon_get_column: values");

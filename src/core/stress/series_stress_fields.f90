@@ -442,8 +442,8 @@ contains
       type(fourier_series) :: series
       type(grid_transform) :: plane
       type(pressure_wave_sums) :: all_waves, waves
-      !> `top`: number of the first plane below the surface. `last`: number of the deepest plane. `shallow`: the planes 0
-      !> to this one are those of windows; -1 without windows.
+      !> `top`: number of the first plane below the surface. `last`: number of the deepest plane. `shallow`: the planes
+      !> 0 to this one are those of windows; -1 without windows.
       integer :: block(2), i, last, points(2), shallow, top
 
       call leave_out_hidden(self, 0.0_dp)
