@@ -60,6 +60,7 @@ contains
          if (abs(i) == 1) call solve_near(i*load_difference, coarse, before(:, :, i), counted(i), starts(:, i))
          if (abs(i) == 2) call solve_near(i*load_difference, coarse, before(:, :, i), counted(i))
       end do
+      if (.not. solved) return
       call differentiate(record%pbar_over_pstar, bound, before, load_difference, kept, far_values, unused, too_far)
       step = merge(0.5_dp, 1.0_dp, too_far)*load_difference
       y(:, :, [-2, 2]) = before(:, :, merge([-1, 1], [-2, 2], too_far))

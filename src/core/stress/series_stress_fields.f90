@@ -42,7 +42,7 @@ module wavycon_series_stress_fields
    type, extends(stress_fields) :: series_stress_fields
       private
       type(pressure_wave_sums) :: waves              !! the waves of the pressure that (S4) adds up
-      real(dp), public :: pressure_error = 0.0_dp    !! error estimate of the pressure [p*]; NaN if there is none
+      real(dp) :: pressure_error = 0.0_dp            !! error estimate of the pressure [p*]; NaN if there is none
       real(dp) :: wave_error = huge(1.0_dp)          !! E_e of (S15) [p*^2]; huge if it is unknown
       real(dp) :: edge_density = 0.0_dp              !! length of the edge of contact over the area, (S15a) [1/rad]
       real(dp) :: edge_pressure = 0.0_dp             !! mean pressure of the points of a grid next to the edge [p*]
