@@ -78,6 +78,8 @@ contains
       if (number /= 0) trouble = error_text(number)
       if (path_kind(path) == path_directory .or. index(path, '/', back=.true.) == len(path)) &
          trouble = 'this is a directory'
+      if (any(lower_case(path(max(1, index(path, '.', back=.true.)):)) == ['.xlsx', '.xls ', '.ods '])) &
+         trouble = 'it is a text: end the name in .csv for spreadsheets'
       full = full_path(path)
       call all_tables(tables)
       kinds = [character(len(kinds)) :: tables%file, 'resolved', 'checkpoint']

@@ -124,7 +124,11 @@ contains
          k = findloc(keys%rows%name == word(:equals - 1) .and. &
                      (keys%rows%kind /= logical_value .or. equals > len(word)), .true., dim=1)
          if (k == 0) then
-            trouble = "unknown option '"//escaped(word)//"'"//did_you_mean(word, keys%rows%name, '', '')
+            trouble = "unknown option '"//escaped(word)//"'"
+            ! Many programs have options of one letter, which no name is near to.
+            k = findloc(keys%rows%name(:3), '-'//word(:2), dim=1)
+            if (len(word) == 2 .and. k > 0) word = trim(keys%rows(k)%name)
+            trouble = trouble//did_you_mean(word, keys%rows%name, '', '')
             cycle
          end if
          key = keys%rows(k)
