@@ -14,7 +14,7 @@ module wavycon_grid_source
    use wavycon_grid_points, only: point_angle
    use wavycon_grid_stress_fields, only: grid_stress_fields
    use wavycon_grid_transform, only: grid_transform
-   use wavycon_kinds, only: dp, ieee_is_nan, int64, not_a_number
+   use wavycon_kinds, only: dp, int64
    use wavycon_region_numbers, only: find_region_numbers, region_numbers
    use wavycon_rotated_series, only: in_other_angles, to_difference_angles
    use wavycon_series_stress_fields, only: start_series_stress_fields
@@ -236,7 +236,8 @@ contains
    end subroutine pack_source
 
    !> Takes those columns from an array of pack_source that this rank needs. The array may come from any rank; calls for
-   !> the arrays of all ranks restore the source. Columns that have not been found are NaN.
+   !> the arrays of all ranks restore the source. Columns that have not been found are huge, so that the edge, which
+   !> is made before they are known, passes none of them over.
    subroutine unpack_source(self, values, whole, complete)
       class(grid_source), intent(inout) :: self   !! before the first call `edge` is not allocated
       real(dp), intent(in) :: values(:)           !! array of pack_source
@@ -257,7 +258,7 @@ contains
          self%rotated = values(7) > 0.0_dp
          self%history = change_history(values(10:12), reshape(values(13:18), [3, 2]))
          call slab%start(points, whole)
-         allocate (field(rows, slab%columns()), source=not_a_number())
+         allocate (field(rows, slab%columns()), source=huge(1.0_dp))
          allocate (edge)
          call make_grid_edge(edge, field, values(8) > 0.0_dp, values(2:3), slab, values(9) > 0.0_dp)
          call self%take_edge(edge)
@@ -267,7 +268,7 @@ contains
             before = own_values + (j - first)*rows
             field(:, j - own%first + 1) = values(before + 1:before + rows)
          end do
-         complete = .not. any(ieee_is_nan(field(1, :)))
+         complete = all(field(1, :) < huge(1.0_dp))
       end associate
    end subroutine unpack_source
 

@@ -45,7 +45,7 @@ module wavycon_grid_edge
       !> The same at `reach` columns before and after the own ones, shape (M, reach). Allocated only if the grid is
       !> distributed.
       real(dp), allocatable, private :: low(:, :), high(:, :)
-      logical, allocatable, private :: touched(:)   !! for each own column, whether it has points in contact
+      logical, allocatable, private :: touched(:)   !! for each own column, whether it may have points in contact
       type(grid_slab) :: slab             !! which columns are the process's own
       real(dp) :: stiffness(2) = 1.0_dp   !! E*/(2 l), l the steps along phi and theta, in the units of pressure and gap
       logical :: even = .true.            !! whether the points are those of a quarter of the cell
