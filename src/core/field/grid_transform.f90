@@ -15,6 +15,7 @@ module wavycon_grid_transform
    use wavycon_kinds, only: dp
    use wavycon_line_plans, only: cosines_to_values, line_plan, plan_of_line, real_to_waves, values_to_cosines, &
       waves_backward, waves_forward, waves_to_real
+   use wavycon_threads, only: threads_for
    use wavycon_wave_packing, only: give_cosines, give_waves, take_cosines, take_waves
    implicit none (type, external)
    private
@@ -201,13 +202,17 @@ contains
       type(line_plan) :: plan
       integer :: j
 
-      allocate (values(self%points(1)), waves(self%numbers*self%waves))
       plan = plan_of_line(merge(values_to_cosines, real_to_waves, self%even), self%points(1), dp)
+      !$omp parallel num_threads(threads_for(size(field))) private(values, waves)
+      allocate (values(self%points(1)), waves(self%numbers*self%waves))
+      !$omp do schedule(static)
       do j = 1, size(field, 2)
          values = field(:, j)
          call plan%execute(plan%plan, values, waves)
          spectrum(:, j) = waves
       end do
+      !$omp end do
+      !$omp end parallel
    end subroutine columns_to_waves
 
    !> Transforms waves back to columns along x, the inverse of `columns_to_waves` times M, or times 2M for cosines. Wave
@@ -223,14 +228,18 @@ contains
       integer :: j, number
 
       number = self%numbers*min(self%waves, waves_of_column)
-      allocate (values(self%points(1)), waves(self%numbers*self%waves))
       plan = plan_of_line(merge(cosines_to_values, waves_to_real, self%even), self%points(1), dp)
+      !$omp parallel num_threads(threads_for(size(field))) private(values, waves)
+      allocate (values(self%points(1)), waves(self%numbers*self%waves))
+      !$omp do schedule(static)
       do j = 1, size(field, 2)
          waves(:number) = spectrum(:number, j)
          waves(number + 1:) = 0.0_dp
          call plan%execute(plan%plan, waves, values)
          field(:, j) = values
       end do
+      !$omp end do
+      !$omp end parallel
    end subroutine waves_to_columns
 
    !> Transforms the rows of the spectrum along y, in place: from points to waves or back. A block of rows at a time is
@@ -251,7 +260,9 @@ contains
          else
             plan = plan_of_line(merge(waves_forward, waves_backward, forwards), n, dp)
          end if
+         !$omp parallel num_threads(threads_for(size(spectrum))) private(block, line, i, j, last, r)
          allocate (block(numbers*(n + modulo(n, 2) + row_space), rows), line(numbers*n))
+         !$omp do schedule(static)
          do k = 1, size(spectrum, 2), block_rows
             last = min(k + block_rows - 1, size(spectrum, 2))
             do j = 1, n
@@ -269,6 +280,8 @@ contains
                end do
             end do
          end do
+         !$omp end do
+         !$omp end parallel
       end associate
    end subroutine transform_rows
 
