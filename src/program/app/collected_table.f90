@@ -228,9 +228,12 @@ contains
          do k = 1, size(columns)
             line = line//cell(2 + k, shown(d)%keys(columns(k))%word)
          end do
-         if (.not. shown(d)%is_written) shown(d)%rows = failed_row(names, common)//newline
-         ! All rows of a summary are as long as its line of names.
-         associate (rows => shown(d)%rows, length => len(names))
+         if (.not. shown(d)%is_written) then
+            shown(d)%names = names
+            shown(d)%rows = failed_row(names, common)//newline
+         end if
+         ! All rows of a summary are as long as its line of names. Those of another summary may be longer or shorter.
+         associate (rows => shown(d)%rows, length => len(shown(d)%names))
             do k = 1, len(rows), length + 1
                call file%put_words(line//rows(k:k + length - 1))
             end do
