@@ -128,13 +128,19 @@ def draw_regions(picture):
         raise CannotBeDrawn("regions need numpy: python3 -m pip install numpy") from None
     loads = picture.loads(MOST_PANELS)
     spots, drawn, entries = picture.beside.get("spots"), [], {}
-    for load in loads:
+    for place, load in enumerate(loads):
         columns, many = load.columns, len(set(load.columns["x"]))
         contact = table.is_contact(*(regions.np.reshape(columns[name], (-1, many)) for name in ("pressure", "gap")))
         colours = regions.regions(contact, table.mirrored)
         columns["region"] = colours.ravel().tolist()
         row = {name: some[load.place] for name, some in spots.columns.items()} if spots else {}
-        entries |= dict(regions.legend(colours, row))
+        known = regions.legend(colours, row)
+        if len(loads) > 1:
+            # One key for all panels: an axis stands above its panel. Along one alone both gap and contact percolate.
+            along = {words.rpartition(" along ")[2] for words, _ in known if " along " in words}
+            loads[place] = load._replace(name=", along ".join([load.name, *along]))
+            known = regions.legend(colours, {})
+        entries |= dict(known)
         drawn.append([f"{picture.image(*closed(table, load.place, lambda kind: (kind,), ('region',)))}:3 with image"])
     palette = ", ".join(f"{n} '{colour}'" for n, colour in enumerate(regions.COLOURS))
     last = len(regions.COLOURS) - 1

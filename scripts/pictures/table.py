@@ -131,7 +131,7 @@ class Table:
                     if not self.names:
                         if {"deck", "case"} <= set(re.findall(r"\w+", line)):
                             raise NotATable(OF_SEVERAL_DECKS)
-                        if "," in line:
+                        if re.match(r"[A-Za-z]\w*(\[[^],]*\])?,", line):
                             raise NotATable("this table has commas, for spreadsheets; draw the .dat of the same run")
                         if not all(re.fullmatch(r"[A-Za-z]\w*", word) for word in words):
                             raise NotATable("this is not a table of wavycon: its first row holds no names of columns")

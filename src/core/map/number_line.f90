@@ -150,6 +150,10 @@ contains
       case default
          trouble = "'"//excerpt(word)//"' is no number: put # before a line that is a remark, and write nan for a "// &
                    'number that is missing'
+         ! Commas stand within words in quotes alone.
+         if (index(word, ',') > 0) &
+            trouble = "is '"//excerpt(word)//"' a number with a decimal comma? Write a point, or separate the "// &
+                      'numbers of a line by semicolons and leave out the quotes'
       end select
    end subroutine read_number
 

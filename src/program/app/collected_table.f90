@@ -57,9 +57,10 @@ contains
    !> Makes the directory of the table and checks whether the table can be written, so that a bad name is reported
    !> before decks are run. The table must not replace a file that is no table, such as a deck, nor a result of a deck.
    !> Errors: exit_file_trouble.
-   subroutine check_table_file(path, decks, error)
+   subroutine check_table_file(path, decks, makes_directory, error)
       character(*), intent(in) :: path                !! path of the table
       class(collected_deck), intent(in) :: decks(:)   !! decks that are run have a stem
+      logical, intent(in) :: makes_directory          !! whether its directory is made; if not it may be absent
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: full, mark, trouble
@@ -67,14 +68,16 @@ contains
       integer :: d, k, number
       type(table_type), allocatable :: tables(:)
 
-      call make_directories(path(:index(path, '/', back=.true.))//'.', trouble)
+      full = path(:index(path, '/', back=.true.))//'.'
+      if (makes_directory) call make_directories(full, trouble)
       if (allocated(trouble)) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': its directory cannot be made: '//escaped(trouble))
          return
       end if
       mark = table_mark
       if (has_commas(path)) mark = comma_mark
-      number = refusal_to_write(path//c_null_char, mark//c_null_char)
+      number = 0
+      if (path_kind(full) == path_directory) number = refusal_to_write(path//c_null_char, mark//c_null_char)
       if (number /= 0) trouble = error_text(number)
       if (path_kind(path) == path_directory .or. index(path, '/', back=.true.) == len(path)) &
          trouble = 'this is a directory'

@@ -106,6 +106,12 @@ contains
       quiet = command_line%options%quiet%is_true .or. .not. is_first_rank()
 
       call read_decks(command_line, scenes, worst)
+      associate (options => command_line%options)
+         if (is_first_rank() .and. options%table%is_given) &
+            call check_table_file(options%table%text, scenes, .not. options%check%is_true, error)
+      end associate
+      call share_error(error)
+      call stop_on(error)
       if (command_line%options%check%is_true) then
          do i = 1, size(scenes)
             if (.not. allocated(scenes(i)%scene)) cycle
@@ -202,9 +208,6 @@ contains
       keep_going = command_line%options%keep_going%is_true
       call set_threads(nint(command_line%options%threads%number))
       with_table = is_first_rank() .and. command_line%options%table%is_given
-      if (with_table) call check_table_file(command_line%options%table%text, scenes, error)
-      call share_error(error)
-      call stop_on(error)
       do i = 1, size(scenes)
          if (allocated(scenes(i)%scene)) call remove_leftovers(scenes(i)%scene%directory//c_null_char)
       end do

@@ -94,6 +94,7 @@ contains
          call check_number(key, word, number, trouble)
       else
          trouble = must_be(key, word)
+         if (index(word, ';') > 0) trouble = trouble//'; commas or blanks separate values, a point the decimals'
       end if
    end subroutine read_number
 
