@@ -45,7 +45,7 @@ module wavycon_c_handles
       integer :: mark = our_mark
       character(8) :: kind = ''                       !! 'error', 'scene', 'solution' or 'table'
       type(error_type) :: error                       !! the outcome of the last call
-      logical :: lacks_object = .false.               !! whether that call failed to make an object
+      type(error_type), allocatable :: lost           !! why the last object could not be made, if no other call failed
       type(deck_session) :: scene
       type(solved_load) :: solution
       type(memory_table) :: table
@@ -131,22 +131,23 @@ contains
    end subroutine refuse
 
    !> Ends a call: stores its outcome in the caller's error object, and returns its code, 0 for success. If a call
-   !> failed to make an object, later calls that get NULL in its place do not replace the error of the first call.
+   !> failed to make an object, the error of later calls that get NULL in its place is that of the first call.
    integer(c_int) function code(self)
       class(c_call), intent(in) :: self
 
-      logical :: is_consequence
       type(handle_type), pointer :: caller
 
       code = exit_fine
       if (allocated(self%trouble)) code = int(self%trouble%status, c_int)
       caller => object_at(self%error)
       if (caller%kind == 'error') then
-         is_consequence = code /= exit_fine .and. self%got_null .and. caller%lacks_object
-         if (.not. is_consequence) then
-            caller%lacks_object = code /= exit_fine .and. self%makes_object
-            caller%error = error_type(code, '')
-            if (allocated(self%trouble)) caller%error = self%trouble
+         caller%error = error_type(code, '')
+         if (allocated(self%trouble)) caller%error = self%trouble
+         if (code /= exit_fine .and. self%got_null .and. allocated(caller%lost)) then
+            caller%error = caller%lost
+         else if (self%makes_object .or. code /= exit_fine) then
+            if (allocated(caller%lost)) deallocate (caller%lost)
+            if (self%makes_object .and. code /= exit_fine) allocate (caller%lost, source=caller%error)
          end if
       end if
       call unlock()

@@ -225,7 +225,7 @@ contains
       if (allocated(error)) return
       if (load < 1 .or. load > size(self%target)) then
          call fatal_error(error, exit_bad_input, 'there is no such load: the deck gives '// &
-                          integer_text(size(self%target)))
+                          integer_text(size(self%target))//', which C counts from 0, Fortran from 1')
       else
          call self%solve_one(self%loads_by, load, self%target, self%mean_pressure, answer, error)
       end if

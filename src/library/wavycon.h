@@ -6,8 +6,8 @@
 
    If there is an error, functions that make an object return NULL, functions that copy a text return 0, and functions
    that return an int return the code of the error. The caller's error object, which may be NULL, then has the code and
-   the message of the call. If an object could not be made, and later calls get NULL in its place, the error object
-   keeps the message of the call that failed first.
+   the message of the call. If an object could not be made, and later calls get NULL in its place, the message is that
+   of the call that failed first, until another object is made or another call fails.
 
    All lengths are in one unit and all pressures in one unit, those of the deck. Several threads may call the library at
    the same time, each with an error object of its own: loads of different scenes are then solved at the same time, and

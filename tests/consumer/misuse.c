@@ -418,6 +418,14 @@ static void chains(void)
     NOTHING(wavycon_get_text(error, solution, "status", message, sizeof message));
     wavycon_get_message(error, message, sizeof message);
     check(strstr(message, "'-5'") != NULL, "the message of the first call of a chain", __LINE__);
+    /* Calls that are right in between change nothing. */
+    wavycon_scene other = scene_of("&surface kind = 'wave_1d' /");
+    solution = wavycon_solve(error, other, "mean_presure", 1);
+    FINE(wavycon_get(error, other, "p_star", &value));
+    REFUSED(wavycon_get(error, solution, "mean_gap", &value));
+    wavycon_get_message(error, message, sizeof message);
+    check(strstr(message, "'mean_presure'") != NULL, "the message of a chain with a right call", __LINE__);
+    wavycon_delete(&other);
     /* A failed call that makes no object begins no chain. */
     REFUSED(wavycon_set_threads(error, 0));
     REFUSED(wavycon_set_progress(error, NULL, NULL, NULL));

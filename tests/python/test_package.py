@@ -506,6 +506,12 @@ class Certify(PackageTest):
                     self.assertLess(abs(lower - table[f"{name}_lower"]), 1e-12*upper)
                     self.assertLess(abs(upper - table[f"{name}_upper"]), 1e-12*upper)
 
+    def test_bounds_of_a_ball(self):
+        ball = wc.ball(radius=0.1)
+        one = wc.solve(ball, force=1e-3)[0]
+        self.refuse("periodic and mirrored surfaces only", wc.certify, ball, one)
+        self.refuse("periodic and mirrored surfaces only", wc.certify, ball, one.pressure, one.gap, mean_pressure=1)
+
     def test_bounds_on_other_points(self):
         """A wave that is solved to 1e-8 by no grid. The width falls with nearly the cube of the points, in 1-D on
         average: there it depends on where the edge lies between two points."""
@@ -835,6 +841,7 @@ except ImportError as error: print(error)"""
             for bad in loads, iter(loads), set(loads):
                 self.refuse("find needs one value", problem.find, mean_gap=bad)
             self.refuse("give the loads by one of pbar", problem.solve, sweep_from=0.1)
+            self.refuse(", and accuracy to wavycon.problem", problem.find, mean_gap=0.5, accuracy=1e-3)
             for copied in pickle.dumps, copy.deepcopy:
                 self.refuse("cannot be copied or pickled: make a problem in each", copied, problem, error=TypeError)
 

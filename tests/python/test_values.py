@@ -119,7 +119,7 @@ class Names(ValuesTest):
             self.assertFalse(hasattr(thing, "_none"))
         self.refuse("'pressure' here: one load has it", lambda: results.pressure, error=AttributeError)
         for name in "save", "method":
-            self.refuse(f"'{name}' here: all loads together have it", getattr, results[0], name, error=AttributeError)
+            self.refuse(f"'{name}' here: results of solve have it", getattr, results[0], name, error=AttributeError)
         self.refuse("load is a group: it must be a dictionary of keys and their values, got 3", wc.solve, self.rough, load=3)
         results.save("units.npz")
         for one in results, results[:2], wc.load("units.npz"), pickle.loads(pickle.dumps(results)):
@@ -543,6 +543,17 @@ class Pictures(ValuesTest):
         self.assertAlmostEqual(plain[0].gap.max()/plain.amplitude, shown.max(), delta=1e-12)
         numpy.testing.assert_array_equal(plain[0].gap == 0, shown.mask.reshape(plain[0].gap.shape))
 
+    def test_a_column_has_one_unit_in_all_tables(self):
+        for surface in wc.wave_1d(amplitude=1e-6, wavelength=1e-3), wc.wave_2d(amplitude=1e-6, wavelength=1e-3):
+            results = wc.solve(surface, e_star=1e9, pbar_over_pstar=0.1, pressure_unit="Pa", length_unit="m",
+                               interface={"work_of_adhesion": 0.05, "friction": 0.5, "tangential_over_normal": 0.1,
+                                          "nu": 0.3},
+                               stress={"nu": 0.3, "section": "x"}, output={"spots": True, "lines": True, "map": True})
+            units = {}
+            for name in results[0]._asked_for():
+                for column, unit in wc.library.table(results[0]._solution, name, 1)[1].items():
+                    self.assertEqual(unit, units.setdefault(column, unit), (name, column))
+
     def test_pascals_and_metres_have_a_prefix(self):
         """That which suits p*, here 0.89 GPa, Delta and the side of the cell; other units are drawn as they are."""
         results = wc.solve(wc.wave_2d(amplitude=1e-6, wavelength=1e-3), e_star=2e11, mean_pressure=[1e7, 1e8],
@@ -662,7 +673,7 @@ class Problems(ValuesTest):
         self.refuse("did you mean 'e_star'", wc.problem, self.rough, e_sta=1)
         with wc.problem(self.rough) as p:
             self.refuse("did you mean 'mean_pressure'", p.solve, mean_presure=1)
-            self.refuse("give the loads by one of pbar", p.find, contact_area_fraction=0.3, foo=1)
+            self.refuse(", and foo to wavycon.problem", p.find, contact_area_fraction=0.3, foo=1)
             self.refuse(r"no key 'gap' in &load; did you mean 'mean_gap'\?", p.find, gap=0.5)
             self.refuse("by one of", p.solve)
             self.refuse("by one of", p.solve, mean_pressure=1, mean_gap=1)

@@ -295,7 +295,7 @@ class Adhesion(Published):
         records = Table(self.folder/"case.adhesion.dat").records()
         found = {}
         for record in records:
-            energy = [number/self.p_star[surface] for number in pair(record, "elastic_energy")]
+            energy = [number/self.p_star[surface] for number in pair(record, "elastic_energy_per_area")]
             if float(record["load"]) > 0:
                 found[record["branch"], float(record["contact_area_fraction"])] = (
                     pair(record, self.names[0]), pair(record, self.names[1]), energy)

@@ -71,7 +71,8 @@ contains
       if (max(preparation%short_wavelength, preparation%long_wavelength) > 0.0_dp .and. &
           sum(unfiltered) > 0.0_dp .and. sum(extremes) <= rounding*largest) then
          call fatal_error(error, exit_bad_input, escaped(source)//': nothing is left of the heights but rounding: '// &
-                          'short_wavelength and long_wavelength leave out all waves of the map')
+                          'short_wavelength and long_wavelength leave out all waves of the map, which is '// &
+                          short_number(length(1))//' long. Do the units agree?')
          return
       else if (sum(extremes) <= 0.0_dp) then
          ! All heights are equal. They are set to zero, because heights less their rounded mean would not be zero

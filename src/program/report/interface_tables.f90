@@ -50,8 +50,8 @@ contains
          columns='load[#] contact_area_fraction[-] contact_area_fraction_error[-] contact_area[area] '// &
          'pbar_over_pstar[-] pbar_over_pstar_error[-] mean_pressure[pressure] force[force] '// &
          'mean_gap_over_amplitude[-] mean_gap_over_amplitude_error[-] approach[length] '// &
-         'elastic_energy[pressure*length] elastic_energy_error[pressure*length] '// &
-         'surface_energy[pressure*length] branch[word] point[word] status_code[#] status[word]')
+         'elastic_energy_per_area[pressure*length] elastic_energy_per_area_error[pressure*length] '// &
+         'surface_energy_per_area[pressure*length] branch[word] point[word] status_code[#] status[word]')
    end function interface_tables
 
    !> Writes the row of a load. The contact stiffness is -1/G' [p*/Delta], with the slope G' of the mean gap against the

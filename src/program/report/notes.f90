@@ -74,9 +74,9 @@ contains
       end associate
    end subroutine show_scene
 
-   !> Notes what is suspicious in a scene, before its loads are solved: other words for units; decimal commas; a
-   !> doubtful height map; if the deck has units, a surface that is too steep for the theory; a surface that is almost
-   !> flat, most likely by a mistake of units.
+   !> Notes what is suspicious in a scene, before its loads are solved: other words for units; decimal commas; a unit of
+   !> pressure without a modulus; a doubtful height map; if the deck has units, a surface that is too steep for the
+   !> theory; a surface that is almost flat, most likely by a mistake of units.
    subroutine note_scene(scene, logger)
       type(scene_type), intent(in) :: scene
       type(run_log), intent(inout) :: logger
@@ -93,6 +93,8 @@ contains
       call note_unit('length_unit', scene%length_unit)
       if (scene%decimal_commas /= '') call logger%note("a comma separates numbers: '0,2' is 0 and 2. If decimals "// &
          'are meant, write them with a point: '//scene%decimal_commas(3:))
+      if (scene%scene_values%pressure_unit%is_given .and. .not. scene%gives_modulus) call logger%note( &
+         'no modulus is given: E* is 1 ['//scene%pressure_unit//']')
       if (allocated(scene%map)) call note_map(scene, scene%map, logger)
       is_flat = scene%roughness%slope > 0.0_dp .and. scene%roughness%slope < flattest
       if (.not. (is_flat .or. (scene%has_units .and. scene%roughness%slope > steepest))) return
@@ -120,8 +122,8 @@ contains
 
    end subroutine note_scene
 
-   !> Notes what is suspicious in a height map: a missing_value that does not occur or is not given, spikes, borders
-   !> that do not fit together, noise, filters that leave almost nothing.
+   !> Notes what is suspicious in a height map: sides that seem to be exchanged, a missing_value that does not occur or
+   !> is not given, spikes, borders that do not fit together, noise, filters that leave almost nothing.
    subroutine note_map(scene, map, logger)
       type(scene_type), intent(in) :: scene
       type(map_statistics), intent(in) :: map   !! statistics of the scene's height map
@@ -137,6 +139,15 @@ contains
 
       if (scene%has_units .and. index(map%assumed_sides, 'length_x') == 1) call logger%note( &
          'the side length_x = 1 ['//scene%length_unit//'] is assumed: neither the deck nor the file gives it')
+      associate (sides => [scene%surface_values%length_x%number, scene%surface_values%length_y%number])
+         if (all(map%points > 1) .and. scene%surface_values%length_y%is_given) then
+            if (are_near(sides(1)*map%points(1), sides(2)*map%points(2)) .and. &
+                .not. are_near(sides(1)*map%points(2), sides(2)*map%points(1))) call logger%note( &
+               'the points are '//short_number(sides(1)/map%points(1))//' apart along x and '// &
+               short_number(sides(2)/map%points(2))//' along y. With length_x and length_y exchanged both would '// &
+               'be alike')
+         end if
+      end associate
       if (map%lacks_missing_value) call logger%note('no height of the file has the missing_value of the deck')
       if (allocated(map%without_unit)) call logger%note(escaped(map%without_unit)//' names no unit, as the other '// &
          'map does: its heights are taken in ['//scene%length_unit//']. height_scale and file2_scale change that')
@@ -176,6 +187,13 @@ contains
                    'they make contact areas smaller')
 
    contains
+
+      !> Whether two products of a side and a number of points differ by 1 % or less.
+      pure logical function are_near(one, other)
+         real(dp), intent(in) :: one, other
+
+         are_near = abs(one - other) <= 0.01_dp*one
+      end function are_near
 
       !> Notes that much of a map was not measured, or seems not to be.
       subroutine note_filled(map, which)

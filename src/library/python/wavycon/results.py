@@ -44,7 +44,7 @@ class Named:
 
     if not TYPE_CHECKING:   # otherwise checkers of types take every name for known
         def __getattr__(self, name: str) -> Any:
-            for kind, owner in (Result, "one load has it, such as results[0]"), (Results, "all loads together have it"):
+            for kind, owner in (Result, "one load has it, such as results[0]"), (Results, "results of solve have it"):
                 if name[0] == "_":   # which other packages look for
                     raise AttributeError(f"there is no attribute {name!r}")
                 if name in [*dir(kind), *getattr(kind, "__dataclass_fields__", ())]:

@@ -75,6 +75,8 @@ def certify(surface: Surface, pressure: npt.ArrayLike | Result, gap: npt.ArrayLi
     p, g = np.atleast_2d(*map(reals, fields))
     if p.ndim != 2 or p.shape != g.shape:
         raise ValueError(f"pressure and gap must have one shape, (y, x) or (x,), got {p.shape} and {g.shape}")
+    if getattr(surface, "kind", None) == "ball":
+        raise ValueError("bounds are known for periodic and mirrored surfaces only, and a ball has free edges")
     if pbar_over_pstar is None:
         mean_pressure = one_number("mean_pressure", mean_pressure)
     scene = scene_of(surface, {"mean_pressure": mean_pressure, "pbar_over_pstar": pbar_over_pstar, **settings}, False)
@@ -125,7 +127,9 @@ class Problem:
             raise ValueError("this problem has ended with its `with`")
         if len(load) != 1 or "sweep_" in next(iter(load)):
             known = [key for key in keys()["load"] if not key.startswith("sweep_")]
-            raise ValueError(f"give the loads by one of {', '.join(known)}")
+            settings = ", ".join(name for name in load if name not in keys()["load"])
+            raise ValueError(f"give the loads by one of {', '.join(known)}"
+                             + f", and {settings} to wavycon.problem"*bool(settings))
         given: Any
         (name, given), = load.items()
         if isinstance(given, str):
@@ -142,7 +146,8 @@ class Problem:
 
     def find(self, *, progress: bool = True, **load: Unpack[Load]) -> Result:
         """The load at which a quantity of &load has this value, such as contact_area_fraction=0.3, or percolates: its
-        table "percolation" has the error of the load. progress: as of solve."""
+        table "percolation" has the error of the load. solve of the same value gives Results, which can be saved.
+        progress: as of solve."""
         values: Any = load.values()
         if any(np.ndim(value) or isinstance(value, (Iterator, Set)) for value in values):
             raise ValueError("find needs one value, not a list; solve takes lists")
