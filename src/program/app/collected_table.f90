@@ -174,7 +174,7 @@ contains
       integer :: d, k, one   ! one: number of a deck that has a summary, or 0
 
       one = findloc(decks%is_written, .true., dim=1)
-      call choose_columns(decks(pack([(d, d=1, size(decks))], decks%is_written .or. one == 0)), settings, columns)
+      call choose_columns(decks, settings, columns)
       allocate (width(2 + size(columns)), source=narrowest)
       shown = decks
       do d = 1, size(shown)
@@ -309,18 +309,22 @@ contains
 
    !> Chooses the keys that have a column. A key that has an effect in an earlier deck comes first.
    subroutine choose_columns(decks, settings, columns)
-      type(collected_deck), intent(in) :: decks(:)      !! the decks in the table
+      type(collected_deck), intent(in) :: decks(:)      !! the decks in the table; if any is written, such ones decide
       type(setting_type), intent(in) :: settings(:)     !! settings of the command line
       integer, allocatable, intent(out) :: columns(:)   !! numbers of the keys
 
-      integer :: d, i, k
+      integer :: d, first, i, k
+      logical :: decides(size(decks)), is_set
       logical, allocatable :: differs(:)   ! whether the value of each key differs between decks
-      logical :: is_set
 
       allocate (columns(0))
       if (size(decks) == 0) return
-      differs = [(any([(decks(d)%keys(k)%word /= decks(1)%keys(k)%word, d=2, size(decks))]), k=1, size(decks(1)%keys))]
+      decides = decks%is_written .or. .not. any(decks%is_written)
+      first = findloc(decides, .true., dim=1)
+      differs = [(any([(decides(d) .and. decks(d)%keys(k)%word /= decks(first)%keys(k)%word, d=1, size(decks))]), &
+                  k=1, size(decks(first)%keys))]
       do d = 1, size(decks)
+         if (.not. decides(d)) cycle
          do k = 1, size(differs)
             associate (key => decks(d)%keys(k))
                if (any(columns == k) .or. .not. key%in_effect) cycle
