@@ -225,12 +225,13 @@ class Table:
         """The size of a quantity that decides on its unit in all pictures of a run, None if it is not known.
 
         name: "cell_x" for places, "Delta" for heights and gaps, "p*" for pressures and stresses: of these the size lies
-        between the lightest load and the largest pressure of the summary. A third of it: rather 2000 MPa than 0.1 GPa.
+        between the load in the middle and the largest pressure of the summary. A third of it: rather 2000 MPa than
+        0.1 GPa.
         """
         if name == "p*":
-            ends = [min((p for p in self.summary.column("mean_pressure") if p > 0), default=0.0),
-                    max(self.summary.column("peak_pressure"), default=0.0)] if self.summary else [0.0]
-            return math.sqrt(math.prod(ends))/3 or None
+            loads, peaks = (sorted(p for p in self.summary.column(one) if p > 0) if self.summary else []
+                            for one in ("mean_pressure", "peak_pressure"))
+            return math.sqrt(loads[len(loads)//2]*peaks[-1])/3 if loads and peaks else None
         return self.numbers.get(name, 0.0)/(3 if name == "cell_x" else 1) or None
 
     @property
