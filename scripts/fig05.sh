@@ -47,9 +47,9 @@ do for [i = 0:loads - 1] {
    saddle = STATS_max
    stats lines index i using "pbar_over_pstar" nooutput
    if (i < loads - 1) {
-      set label sprintf('%.1f', STATS_max) at graph 0.5, first saddle + 0.07 center font ',12'
+      set label sprintf('%g', STATS_max) at graph 0.5, first saddle + 0.07 center font ',12'
    } else {
-      set label sprintf('%s = %.1f', load, STATS_max) at graph 0.5, first saddle + 0.17 center font ',12'
+      set label sprintf('%s = %g', load, STATS_max) at graph 0.5, first saddle + 0.17 center font ',12'
    }
 }
 block = 1

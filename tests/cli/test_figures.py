@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""No figure is cut off on a machine whose only faces are DejaVu's, which are wider than Times.
+"""No figure is cut off on a machine whose only faces are DejaVu's, which are wider than Times; figures follow their
+decks.
 
 usage: test_figures.py --program WAVYCON [unittest's options]
 
 The long test, Figures.every_figure_in_every_format, runs only if it is named.
 """
+import html
 import os
 import pathlib
 import re
@@ -46,6 +48,32 @@ class Figures(ProgramTest):
 
     def test_some(self):
         self.check("fig03", "fig04")
+
+    def changed(self, figure, *changes):
+        """The words of a figure whose decks are changed. changes: a deck, a pattern and what replaces it."""
+        kept = {}
+        for deck, pattern, new in changes:
+            path = self.folder/"inputs"/f"{deck}.nml"
+            kept.setdefault(path, path.read_text(encoding="utf-8"))
+            text, count = re.subn(pattern, new, path.read_text(encoding="utf-8"))
+            self.assertEqual(1, count)
+            path.write_text(text, encoding="utf-8")
+        self.check(figure, formats=("svg",))
+        for path, text in kept.items():
+            path.write_text(text, encoding="utf-8")
+        picture = (self.folder/"outputs"/"figures"/f"{figure}.svg").read_text(encoding="utf-8")
+        return re.sub(r"\s+", " ", html.unescape(re.sub(r"<[^>]*>", "", picture)))
+
+    def test_loads_are_those_of_the_deck(self):
+        loads = r"(pbar_over_pstar =).*"
+        for figure, new, words in (("fig02", "0.25, 0.5, 0.95", (" 0.25 ", "p̄/p* = 0.95 ", "Dundurs et al., 0.5 ")),
+                                   ("fig05", "0.25, 0.95", (" 0.25 ", "p̄/p* = 0.95 ")),
+                                   ("fig06", "0.15, 0.95", ("0.15 to 0.95 ", "(23) at 0.15, (24) at 0.95 ")),
+                                   ("fig06", "0.5", ("(23) at 0.5,",))):
+            shown = self.changed(figure, (figure, loads, rf"\1 {new}"))
+            for some in words:
+                with self.subTest(figure=figure, words=some):
+                    self.assertIn(some, shown)
 
     def every_figure_in_every_format(self):
         figures = re.search("^for figure in (.*); do", (ROOT/"scripts"/"figures").read_text(encoding="utf-8"), re.M)[1]
