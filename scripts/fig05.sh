@@ -10,6 +10,20 @@ lines = table('fig05', 'lines')
 fine = table('fig05_fine', 'lines')
 stats lines using "pbar_over_pstar" nooutput
 loads = STATS_blocks
+stats fine using "pbar_over_pstar" nooutput
+fine_loads = STATS_blocks
+# Grey curves are those of loads that both runs have.
+black_loads = ' '
+do for [i = 0:loads - 1] {
+   stats lines index i using "pbar_over_pstar" nooutput
+   black_loads = black_loads.sprintf('%.9g ', STATS_max)
+}
+is_black(number) = strstrt(black_loads, sprintf(' %.9g ', number)) > 0
+has_grey = 0
+do for [i = 0:fine_loads - 1] {
+   stats fine index i using "pbar_over_pstar" nooutput
+   if (is_black(STATS_max)) { has_grey = 1 }
+}
 
 set yrange [-0.05:2.05]
 set ytics 0, 0.5 format '%.1f'
@@ -17,9 +31,9 @@ set mytics 5
 set xtics 0.1 format '%.1f'
 set mxtics 2
 set key at graph 0.5, 0.96 center top samplen 3
-pressure = '"distance":"pressure_over_pstar"'
-pressures = 'for [i = 0:loads - 1] fine index i every :::block::block using @pressure with lines ls 5,' \
-   .' for [i = 0:loads - 1] lines index i every :::block::block using @pressure with lines ls 1'
+pressures = 'for [i = 0:fine_loads - 1] fine index i every :::block::block' \
+   .' using (is_black(column("pbar_over_pstar")) ? column("distance") : NaN):"pressure_over_pstar" with lines ls 5,' \
+   .' for [i = 0:loads - 1] lines index i every :::block::block using "distance":"pressure_over_pstar" with lines ls 1'
 
 set multiplot
 # Panels as wide as the lines that they show are long.
@@ -55,6 +69,6 @@ do for [i = 0:loads - 1] {
 block = 1
 plot @pressures, \
      NaN with lines ls 1 title 'harmonics to the 9th', \
-     NaN with lines ls 5 title 'to the 60th'
+     for [i = 1:has_grey] NaN with lines ls 5 title 'to the 60th'
 unset multiplot
 EOF

@@ -62,7 +62,7 @@ class Figures(ProgramTest):
         for path, text in kept.items():
             path.write_text(text, encoding="utf-8")
         picture = (self.folder/"outputs"/"figures"/f"{figure}.svg").read_text(encoding="utf-8")
-        return re.sub(r"\s+", " ", html.unescape(re.sub(r"<[^>]*>", "", picture)))
+        return re.sub(r"\s+", " ", html.unescape(re.sub(r"<title>.*?</title>|<[^>]*>", "", picture)))
 
     def test_loads_are_those_of_the_deck(self):
         loads = r"(pbar_over_pstar =).*"
@@ -74,6 +74,15 @@ class Figures(ProgramTest):
             for some in words:
                 with self.subTest(figure=figure, words=some):
                     self.assertIn(some, shown)
+
+    def test_grey_curves_are_of_the_same_loads(self):
+        loads = r"(pbar_over_pstar =).*"
+        for new, is_grey in ("0.5, 0.95", True), ("0.25, 0.95", False):
+            shown = self.changed("fig05", ("fig05", loads, rf"\1 {new}"))
+            self.assertEqual(is_grey, "to the 60th" in shown)
+            picture = (self.folder/"outputs"/"figures"/"fig05.svg").read_text(encoding="utf-8")
+            # A curve in either panel, and the line of the key.
+            self.assertEqual(3*is_grey, len(re.findall(r"<path stroke='rgb\(140, 140, 140\)'", picture)))
 
     def every_figure_in_every_format(self):
         figures = re.search("^for figure in (.*); do", (ROOT/"scripts"/"figures").read_text(encoding="utf-8"), re.M)[1]
