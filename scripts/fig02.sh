@@ -5,7 +5,8 @@ set -eu
 . "$(dirname "$0")/figure_common.sh"
 start_figure fig02 'Fig. 2, the pressures of the one-dimensional wave' "$@"
 run_decks fig02
-draw_figure 480 420 "edge_level = $(header_value fig02 lines 'edge_level[p*]')" <<'EOF'
+draw_figure 480 420 "edge_level = $(header_value fig02 lines edge_level)" \
+   "side = $(header_value fig02 lines cell_x)" <<'EOF'
 lines = table('fig02', 'lines')
 theory = table('fig02', 'theory_lines')
 stats lines using "pbar_over_pstar" nooutput
@@ -34,11 +35,11 @@ do for [i = 0:loads - 1] {
    }
 }
 
-plot for [i = 0:loads - 1] for [side = -1:1:2] theory index i \
-        using (side*column("x")):"westergaard_pressure_over_pstar" with lines ls 1, \
-     for [i = 0:loads - 1] for [side = -1:1:2] lines index i \
-        using (side*column("x")):"pressure_over_pstar" with lines ls 2 lc rgb blue, \
-     for [side = -1:1:2] theory index dundurs using (side*column("x")):"dundurs_pressure_over_pstar" \
+plot for [i = 0:loads - 1] for [way = -1:1:2] theory index i \
+        using (way*column("x")/side):"westergaard_pressure_over_pstar" with lines ls 1, \
+     for [i = 0:loads - 1] for [way = -1:1:2] lines index i \
+        using (way*column("x")/side):"pressure_over_pstar" with lines ls 2 lc rgb blue, \
+     for [way = -1:1:2] theory index dundurs using (way*column("x")/side):"dundurs_pressure_over_pstar" \
         with lines ls 3 lc rgb red, \
      edge_level with lines ls 3 lw 0.8, \
      NaN with lines ls 2 lc rgb blue title 'quadratic programming', \

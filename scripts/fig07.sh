@@ -5,7 +5,7 @@ set -eu
 . "$(dirname "$0")/figure_common.sh"
 start_figure fig07 'Fig. 7, the contact area of the two-dimensional wave' "$@"
 run_decks fig07 fig07_curves
-draw_figure 480 380 "edge_level = $(header_value fig07 summary 'edge_level[p*]')" <<'EOF'
+draw_figure 480 380 "edge_level = $(header_value fig07 summary edge_level)" <<'EOF'
 curves = table('fig07_curves', 'theory')
 set xlabel load
 set ylabel '{/:Italic A}_{real} / {/:Italic A}_0'

@@ -5,8 +5,8 @@ set -eu
 . "$(dirname "$0")/figure_common.sh"
 start_figure fig09 'Fig. 9, the contact areas of the experiment as computed' "$@"
 run_decks fig09 fig09_converged
-draw_figure 600 285 "edge_level = $(header_value fig09 contour 'edge_level[p*]')" \
-   "side = $(header_value fig09 contour 'cell_x[length]')" <<'EOF'
+draw_figure 600 285 "edge_level = $(header_value fig09 contour edge_level)" \
+   "side = $(header_value fig09 contour cell_x)" <<'EOF'
 pools = table('fig09_converged', 'contour')
 isobars = table('fig09', 'contour')
 summary = table('fig09', 'summary')

@@ -84,6 +84,17 @@ class Figures(ProgramTest):
             # A curve in either panel, and the line of the key.
             self.assertEqual(3*is_grey, len(re.findall(r"<path stroke='rgb\(140, 140, 140\)'", picture)))
 
+    def test_places_are_over_the_wavelength(self):
+        """The pictures of a wave of other lengths are the same."""
+        for figure in "fig01", "fig02", "fig04", "fig05", "fig06", "figA1":
+            decks = sorted(path.stem for path in (self.folder/"inputs").glob(f"{figure}*.nml"))
+            picture = self.folder/"outputs"/"figures"/f"{figure}.svg"
+            self.check(figure, formats=("svg",))
+            of_unit_wave = picture.read_text(encoding="utf-8")
+            self.changed(figure, *((deck, "(?=kind = 'wave_)", "amplitude = 0.5, wavelength = 4, ") for deck in decks))
+            with self.subTest(figure=figure):
+                self.assertEqual(of_unit_wave, picture.read_text(encoding="utf-8"))
+
     def every_figure_in_every_format(self):
         figures = re.search("^for figure in (.*); do", (ROOT/"scripts"/"figures").read_text(encoding="utf-8"), re.M)[1]
         self.check(*figures.split(), formats=FORMATS)
