@@ -420,6 +420,22 @@ class Plot(ProgramTest):
         self.assertIn("need the summary",
                       self.plot("--variable", "regions", "bad/alone.adhesion_map.npy", status=3)[1])
 
+    def test_contacts_without_adhesion_say_so(self):
+        """In decks with adhesion. A map in numpy's format takes the head of the summary. A long title is cut before."""
+        long = f"&scene title = '{'A long title ' * 15}' /\n"
+        self.run_deck("both", long + WAVE + "&interface work_of_adhesion = 0.05 /\n"
+                      "&output map = t, lines = t, map_format = 'npy', map_points = 16, height = t /\n")
+        for name, is_said in (("summary.dat", True), ("interface.dat", True), ("lines.dat", True), ("map.npy", True),
+                              ("adhesion.dat", False), ("adhesion_lines.dat", False), ("adhesion_map.npy", False),
+                              ("height.npy", False)):
+            with self.subTest(table=name):
+                self.plot("--format", "svg", "--loads", "2", f"both.{name}")
+                self.pictures[f"both.{name}",] = (self.folder/f"both.{name}").with_suffix(".svg")
+                self.assertEqual(is_said, "… (contact without adhesion)" in self.drawn(f"both.{name}"))
+        self.assertIn("without adhesion", self.drawn("--compare", "both.lines.dat", "auto.lines.dat"))
+        self.assertNotIn("without adhesion", self.drawn("--compare", "both.lines.dat", "both.adhesion_lines.dat"))
+        self.assertNotIn("without adhesion", self.drawn("auto.summary.dat"))
+
     def test_stresses_of_two_bodies(self):
         for name in ("bodies.stress_line.dat", "bodies.stress_section.dat", "bodies.stress_planes.npy"):
             self.assertIn("--body 2 shows the second", self.plot("--format", "svg", name)[1])
