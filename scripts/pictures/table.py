@@ -266,10 +266,10 @@ class Table:
         return self.with_blocks(blocks)
 
     def label(self, name):
-        """The unit of a number of the head, '' if the deck gives it no label."""
+        """The unit of a number of the head, or of a column, '' if the deck gives it no label."""
         # With free edges there is no p*.
-        unit = self.units.get(name, self.units.get("e_star", "") if name == "p*" else "")
-        return "" if unit in UNLABELLED else unit
+        unit = self.units.get(name, self.units.get("e_star", "") if name == "p*" else self.column_units.get(name, ""))
+        return unit if UNLABELLED.isdisjoint(re.findall("[a-z]+", unit)) else ""
 
     def column(self, name, blocks=None):
         """All finite numbers of a column, of all blocks or of those given by their places."""
