@@ -5,14 +5,14 @@ set -eu
 . "$(dirname "$0")/figure_common.sh"
 start_figure fig01 'Fig. 1, the profiles of a flat and a one-dimensional wave' "$@"
 run_decks fig01
-draw_figure 480 480 <<'EOF'
+draw_figure 480 480 "side = $(header_value fig01 theory_lines cell_x)" <<'EOF'
 # The gap of eq. (5) over the wavelengths shown, from that over half a wavelength.
 lines = table('fig01', 'theory_lines')
 bottom = -2.45
 top = 0.75
 gap = "westergaard_gap_over_amplitude"
-unfold(profile) = sprintf('set table $pieces; plot for [k = -2:2] for [side = -1:1:2] lines index %d ', profile) \
-   .'using (k + side*column("x")):(-column(gap)) with lines; unset table'
+unfold(profile) = sprintf('set table $pieces; plot for [k = -2:2] for [way = -1:1:2] lines index %d ', profile) \
+   .'using (k + way*column("x")/side):(-column(gap)) with lines; unset table'
 joined(curve) = 'set table '.curve.'; plot $pieces using 1:2 smooth unique with lines; unset table'
 set xrange [-1.25:1.25]
 set yrange [bottom:top]

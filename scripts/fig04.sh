@@ -5,14 +5,14 @@ set -eu
 . "$(dirname "$0")/figure_common.sh"
 start_figure fig04 'Fig. 4, the unit cell of the two-dimensional wave' "$@"
 run_decks fig04
-draw_figure 480 480 <<'EOF'
+draw_figure 480 480 "side = $(header_value fig04 map cell_x)" "Delta_here = $(header_value fig04 map Delta)" <<'EOF'
 step = 0.2
 levels = 9
 set contour base
 set cntrparam levels incremental step, step, levels*step
 unset surface
 set table $contours
-splot table('fig04', 'map') using "x":"y":"undeformed_gap" with lines
+splot table('fig04', 'map') using (column("x")/side):(column("y")/side):(column("undeformed_gap")/Delta_here) with lines
 unset table
 
 set style fill solid noborder

@@ -5,7 +5,7 @@ set -eu
 . "$(dirname "$0")/figure_common.sh"
 start_figure fig07 'Fig. 7, the contact area of the two-dimensional wave' "$@"
 run_decks fig07 fig07_curves
-draw_figure 480 380 "edge_level = $(header_value fig07 summary 'edge_level[p*]')" <<'EOF'
+draw_figure 480 380 "edge_level = $(header_value fig07 summary edge_level)" <<'EOF'
 curves = table('fig07_curves', 'theory')
 set xlabel load
 set ylabel '{/:Italic A}_{real} / {/:Italic A}_0'
@@ -25,7 +25,7 @@ plot curves using "pbar_over_pstar":"hertz_contact_area_fraction" with lines ls 
      'outputs/reference/wave_2d.dat' using "pbar_over_pstar":"contact_area_fraction" with lines ls 31 \
         title 'converged', \
      table('fig07', 'summary') using "pbar_over_pstar":"contact_area_fraction" with points ls 12 ps 0.85*mark \
-        title sprintf('numerical, %s ≥ %.1f %s', p, edge_level, p_star), \
+        title sprintf('numerical, %s ≥ %g %s', p, edge_level, p_star), \
      'inputs/reference_2d.dat' using "pbar_over_pstar":"contact_area_fraction" with points ls 14 \
         title 'converged, other methods'
 EOF

@@ -5,8 +5,8 @@ set -eu
 . "$(dirname "$0")/figure_common.sh"
 start_figure fig09 'Fig. 9, the contact areas of the experiment as computed' "$@"
 run_decks fig09 fig09_converged
-draw_figure 600 285 "edge_level = $(header_value fig09 contour 'edge_level[p*]')" \
-   "side = $(header_value fig09 contour 'cell_x[length]')" <<'EOF'
+draw_figure 600 285 "edge_level = $(header_value fig09 contour edge_level)" \
+   "side = $(header_value fig09 contour cell_x)" <<'EOF'
 pools = table('fig09_converged', 'contour')
 isobars = table('fig09', 'contour')
 summary = table('fig09', 'summary')
@@ -30,7 +30,7 @@ set object 2 rectangle at screen 0.31, 0.045 size screen 0.024, screen 0.04 fc r
 set arrow 1 from screen 0.53, 0.045 to screen 0.56, 0.045 nohead lc rgb red lw 1.2
 set label 1 'contact' at screen 0.202, 0.045 left font ',12'
 set label 2 'gap, converged' at screen 0.332, 0.045 left font ',12'
-set label 3 sprintf('%s = %.1f %s, nine harmonics', p, edge_level, p_star) at screen 0.572, 0.045 left font ',12'
+set label 3 sprintf('%s = %g %s, nine harmonics', p, edge_level, p_star) at screen 0.572, 0.045 left font ',12'
 
 # Two waves on either block, as in the experiment: the cell of the tables, drawn four times.
 set multiplot layout 1, loads margins 0.115, 0.98, 0.285, 0.83 spacing 0.05, 0

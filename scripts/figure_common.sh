@@ -67,9 +67,9 @@ run_decks() {
    done
 }
 
-# header_value CASE TABLE NAME: the number of 'NAME = number' in the head of a table.
+# header_value CASE TABLE NAME: the number of 'NAME[unit] = number' in the head of a table, whatever the unit.
 header_value() {
-   awk -v name="$3 =" '/^#/ && (i = index($0, name)) {
+   awk -v name="$3 =" '/^#/ && !/^# title:/ { gsub(/\[[^]]*\]/, "") } /^#/ && (i = index($0, name)) {
       split(substr($0, i + length(name)), field, ","); print field[1]; exit }' "outputs/$1/$1.$2.dat"
 }
 

@@ -5,7 +5,7 @@ set -eu
 . "$(dirname "$0")/figure_common.sh"
 start_figure interface 'stiffness, resistance, partial slip and adhesion of the two-dimensional wave' "$@"
 run_decks contact_resistance slip_loop pull_off
-draw_figure 640 520 "p_star_loop = $(header_value slip_loop summary 'p*[MPa]')" <<'EOF'
+draw_figure 640 520 "p_star_loop = $(header_value slip_loop summary 'p*')" <<'EOF'
 set datafile columnheaders
 set multiplot
 set border 3 lw 0.7

@@ -6,8 +6,8 @@ set -eu
 start_figure surfaces "contact pressures of four surfaces beyond the paper's" "$@"
 run_decks surface_rectangular surface_hexagonal surface_sum surface_rough
 for case in surface_rectangular surface_hexagonal surface_sum surface_rough; do
-   facts="${facts-} $(header_value $case map 'cell_x[length]') $(header_value $case map 'cell_y[length]')"
-   facts="$facts $(header_value $case map 'p*[pressure]')"
+   facts="${facts-} $(header_value $case map cell_x) $(header_value $case map cell_y)"
+   facts="$facts $(header_value $case map 'p*')"
 done
 draw_figure 700 205 "facts = '$facts'" <<'END'
 cases = 'surface_rectangular surface_hexagonal surface_sum surface_rough'

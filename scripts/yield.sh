@@ -16,7 +16,8 @@ for lateral in constrained hydrostatic; do
          --set stress.nu=$nu --set scene.case="yield_$lateral-${nu%,*}"
    done
 done
-draw_figure 640 480 "p_star_here = $(header_value yield summary 'p*[pressure]')" <<'END'
+draw_figure 640 480 "p_star_here = $(header_value yield summary 'p*')" \
+   "side = $(header_value yield summary cell_x)" <<'END'
 loads = '0.02 0.15 0.4 0.9'
 ratios = '0 0.15 0.3 0.5'
 section = table('yield', 'stress_section')
@@ -31,7 +32,7 @@ unset surface
 set cntrparam levels incremental 0.1, 0.1, 1.3
 do for [i = 1:words(loads)] {
    set table isolines(i)
-   splot section index i - 1 using 'distance':'depth':(column('von_mises')/p_star_here)
+   splot section index i - 1 using (column('distance')/side):(column('depth')/side):(column('von_mises')/p_star_here)
    unset table
 }
 unset contour
@@ -61,11 +62,12 @@ do for [i = 1:words(loads)] {
       unset colorbox
    }
    set datafile columnheaders
-   plot for [side in '-1 1'] section index i - 1 \
-           using (side*column('distance')):'depth':(column('von_mises')/p_star_here) with image, \
-        for [side in '-1 1'] lines index i - 1 every :::0::0 \
-           using (side*column('distance')):(column('pressure') > 0 ? 0 : NaN) with lines lc rgb red lw 4, \
-        largest using (column('load') == i ? 0 : NaN):'von_mises_depth' with points pt 2 ps mark lw 1.5 lc rgb red
+   plot for [way in '-1 1'] section index i - 1 \
+           using (way*column('distance')/side):(column('depth')/side):(column('von_mises')/p_star_here) with image, \
+        for [way in '-1 1'] lines index i - 1 every :::0::0 \
+           using (way*column('distance')/side):(column('pressure') > 0 ? 0 : NaN) with lines lc rgb red lw 4, \
+        largest using (column('load') == i ? 0 : NaN):(column('von_mises_depth')/side) \
+           with points pt 2 ps mark lw 1.5 lc rgb red
    # These files have no names of columns.
    unset datafile columnheaders
    unset title
@@ -74,7 +76,7 @@ do for [i = 1:words(loads)] {
    set xtics ('' -0.4, '' 0, '' 0.4)
    set format y ''
    unset colorbox
-   plot for [side in '-1 1'] isolines(i) using (side*$1):2 with lines lc rgb outline lw 0.5
+   plot for [way in '-1 1'] isolines(i) using (way*$1):2 with lines lc rgb outline lw 0.5
 }
 set datafile columnheaders
 

@@ -1,10 +1,11 @@
 """The pictures of the tables of &interface: stiffness, partial slip, adhesion."""
+import dataclasses
 import math
 import sys
 
-from axes import Axis, chosen, label_of_unit
+from axes import Axis, chosen, label_of_unit, step_of
 from fields import cells, closed
-from picture import APPROACH, AREA, MOST_CURVES, MOST_PANELS, P_BAR, P_STAR, RIGHT, SLIP, TRACTION, CannotBeDrawn, \
+from picture import APPROACH, AREA, MOST_CURVES, MOST_PANELS, P_BAR, RIGHT, SLIP, TRACTION, CannotBeDrawn, \
     Load, Quantity, entry, mean_pressure_axis, shown, wanted_places
 from table import Block
 
@@ -109,9 +110,9 @@ def adhesion(picture):
     table = picture.table
     curve, critical, loads = (rows_of(block) for block in (table.blocks + [Block(table.names)]*2)[:3])
     free = not table.column("pbar_over_pstar")
-    load, area = ("force", "contact_area") if free else ("pbar_over_pstar", "contact_area_fraction")
+    load, area = ("force", "contact_area") if free else ("mean_pressure", "contact_area_fraction")
     critical = [point for point in critical if math.isfinite(point[load])]   # the others were not found
-    units = {load: "", area: "", "approach": "Delta"}
+    units = {load: "force" if free else "p*", area: "contact_area" if free else "", "approach": "Delta"}
     scales = {name: Quantity([table], name, unit) for name, unit in units.items()}
     # Towards full contact the tension grows without bound, and the load of a ball with its contact.
     seen = [point[load] for point in critical + loads if math.isfinite(point[load])] or [0.0]
@@ -122,7 +123,9 @@ def adhesion(picture):
     def on_axis(name, points):
         return scales[name].of(point[name] for point in points)
 
-    of_load = Axis(*scales[load].of((low, high)), label=scales[load].label("force") if free else f"{P_BAR}/{P_STAR}")
+    of_load = Axis(*scales[load].of((low, high)), label=scales[load].label("force" if free else P_BAR))
+    # Along x numbers of gnuplot's own steps have no room.
+    along_x = dataclasses.replace(of_load, step=step_of(of_load.high - of_load.low))
     of_area = Axis.of(on_axis(area, shown), scales[area].label("contact area") if free else AREA, may_be_wide=False,
                       up_to=None if free else 1.0)
     closing = list(filter(math.isfinite, on_axis("approach", shown)))
@@ -139,8 +142,8 @@ def adhesion(picture):
     titles = [entry("lines ls 31", "separate spots"), entry("lines ls 33 dt solid", "separate pools")]*both
     titles += [entry(f"lines lc rgb black lw 1.3 dt {dash}", title) for dash, title in STABILITY.values()]
     titles += [entry(look, title) for look, points, title in marks if points]
-    picture.grid(240, 250, 2, gaps=(88, 0), room=(72, 160, 62, 40))
-    for n, (across, up, x, y) in enumerate(((load, area, of_load, of_area), ("approach", load, of_approach, of_load))):
+    picture.grid(240, 250, 2, gaps=(88, 0), room=(84 if free else 72, 160, 62, 40))
+    for n, (across, up, x, y) in enumerate(((load, area, along_x, of_area), ("approach", load, of_approach, of_load))):
         curves = [picture.curve(look, on_axis(across, points), on_axis(up, points))
                   for look, points, *_ in lines + marks]
         picture.panel(n, x, y, curves + titles*n, key=f"{RIGHT} spacing 1 font ',11'"*n)

@@ -82,18 +82,19 @@ def names_of(tables):
     return [name.encode("utf-8", "replace").decode("utf-8") for name in names]
 
 
-def fitted(case, title, width):
-    """The words of a title, and the size of its letters: the deck's title with the case before it if there is room.
+def fitted(case, title, width, ending=""):
+    """The words of a title, and the size of its letters: the deck's title with the case before it if there is room, and
+    an ending.
 
-    Long titles are set smaller, and cut if they are still too long.
+    Long titles are set smaller, and cut before the ending if they are still too long.
     """
     room = 0.95*width/LETTER
     words = title or case
-    if title and title.casefold() != case.casefold() and len(f"{case}: {title}")*LARGEST <= room:
+    if title and title.casefold() != case.casefold() and len(f"{case}: {title}{ending}")*LARGEST <= room:
         words = f"{case}: {title}"
-    size = max(SMALLEST, min(LARGEST, room/len(words)))
-    most = int(room/size)
-    return (words if len(words) <= most else words[:most - 1].rstrip() + "…"), size
+    size = max(SMALLEST, min(LARGEST, room/len(words + ending)))
+    most = int(room/size) - len(ending)
+    return (words if len(words) <= most else words[:most - 1].rstrip() + "…") + ending, size
 
 
 def wanted_places(table, numbers, wanted, kind):
@@ -195,9 +196,13 @@ class Picture:
         tops = [self.height - top - k*(high + gaps[1]) for k in range(down)]
         self.boxes = [(start, start + width, upper - high, upper) for upper in tops
                       for start, width in zip(lefts, widths)]
-        words, font = self.compared, SMALL
+        # Of a deck with adhesion: contacts without it say so. Surfaces are the same with and without.
+        contacts = "contact without adhesion" if self.table.kind not in ("height", "spectrum") and not any(
+            table.adhesive for table in self.tables) and any(table.beside_adhesion for table in self.tables) else ""
+        words, font = ", ".join(filter(None, (self.compared, contacts))), SMALL
         if self.alone:
-            words, points = fitted(names_of(self.tables)[0], self.table.title, self.width)
+            words, points = fitted(names_of(self.tables)[0], self.table.title, self.width,
+                                   contacts and f" ({contacts})")
             font = f"noenhanced font ',{points:.3g}'"
         self.commands = [*STYLES, "set border 3 lw 0.7", "set tics nomirror out",
                          "set grid lc rgb '#d9d9d9' lw 0.7 dt solid", "set cbrange [0:1]", "set multiplot",

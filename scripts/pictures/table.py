@@ -76,15 +76,15 @@ class Table:
     `numbers` holds Delta, p*, cell_x, cell_y and edge_level as far as the head gives them, `units` their units;
     `title` is the deck's, '' if it has none; `method` is the first word of its line; `mirrored` says whether the cell
     is a map that its mirror images continue; `adhesive` whether these are fields with adhesion, and `family` is then
-    "adhesion_", what stands before the kind in the file's name, otherwise "". The rest of a line that begins a block is
-    not needed.
+    "adhesion_", what stands before the kind in the file's name, otherwise ""; `beside_adhesion` whether the run has
+    contacts with adhesion and these are not they. The rest of a line that begins a block is not needed.
     """
 
     def __init__(self, path):
         self.path = str(path)
         self.names, self.blocks = [], []
         self.numbers, self.units, self.method, self.title, self.mirrored = {}, {}, "", "", False
-        self.adhesive = False
+        self.adhesive = self.beside_adhesion = False
         self.column_units = {}   # by the names of columns
         self.summary = None   # that of the same run, if there is one
         self.points = None    # of a map in numpy's format
@@ -155,7 +155,8 @@ class Table:
         elif name == "surface":
             self.mirrored = words.endswith(", mirrored")
         elif name == "adhesion":
-            self.adhesive = words.startswith("the contacts are those with it")
+            self.adhesive = words.startswith("the contacts are those with it;")
+            self.beside_adhesion = not self.adhesive
         elif name == "method":
             self.method = words.split(",")[0]
 
@@ -211,6 +212,7 @@ class Table:
         """Takes what the summary of the same run says: a map in numpy's format has no head."""
         for name in ("numbers", "units", "method", "title", "mirrored"):
             setattr(self, name, getattr(summary, name))
+        self.beside_adhesion = summary.beside_adhesion and not self.adhesive
         of_load = summary.column("pbar_over_pstar" if "p*" in summary.numbers else "mean_pressure")
         for block in self.blocks:
             if self.kind == "height":
@@ -265,10 +267,10 @@ class Table:
         return self.with_blocks(blocks)
 
     def label(self, name):
-        """The unit of a number of the head, '' if the deck gives it no label."""
+        """The unit of a number of the head, or of a column, '' if the deck gives it no label."""
         # With free edges there is no p*.
-        unit = self.units.get(name, self.units.get("e_star", "") if name == "p*" else "")
-        return "" if unit in UNLABELLED else unit
+        unit = self.units.get(name, self.units.get("e_star", "") if name == "p*" else self.column_units.get(name, ""))
+        return unit if UNLABELLED.isdisjoint(re.findall("[a-z]+", unit)) else ""
 
     def column(self, name, blocks=None):
         """All finite numbers of a column, of all blocks or of those given by their places."""

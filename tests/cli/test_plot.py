@@ -71,7 +71,8 @@ DECKS = {
     "free": "&scene pressure_unit = 'MPa', length_unit = 'mm' /\n&surface kind = 'ball', radius = 1, length_x = 0.2, points = 32 /\n"
             "&material e_star = 2 /\n&load force = 1e-4, 1e-3 /\n&stress nu = 0.3 /\n"
             "&output map = t, contours = t, lines = t, spots = t, histograms = t /",
-    "pull": "&surface kind = 'ball', radius = 1 /\n&load force = 1e-4 /\n&interface work_of_adhesion = 1e-5 /",
+    "pull": "&scene pressure_unit = 'MPa', length_unit = 'mm' /\n&surface kind = 'ball', radius = 1 /\n"
+            "&load force = 1e-4 /\n&interface work_of_adhesion = 1e-5 /",
     "map": "&surface kind = 'file', file = 'heights.txt' /\n&load pbar_over_pstar = 0.1, 0.5 /",
 }
 # What pictures show and what they do not, with bars between, by the words for scripts/plot.
@@ -127,8 +128,8 @@ SHOWN = {
     "slip.partial_slip.dat": ("stick area|displacement|load 1|load 2", ""),
     "slip.slip_loop.dat": ("tangential load|displacement", ""),
     "slip.slip_map.dat": ("1|0.5", ""),
-    "slip.adhesion.dat": ("pull-off|jump to spots|unstable|separate pools", ""),
-    "pull.adhesion.dat": ("force", ""),
+    "slip.adhesion.dat": ("p̄/p*|pull-off|jump to spots|unstable|separate pools", ""),
+    "pull.adhesion.dat": ("force [10−3 N]|contact area [mm2]|[µm]", ""),
     # With free edges there is no p*: loads are mean pressures. Tables with the loads over p* alone take them from the
     # summary; errors are those in units.
     "free.map.dat": ("kPa", "nan|NaN"),
@@ -381,10 +382,12 @@ class Plot(ProgramTest):
         self.assertIn("no loads over p*", complaints)
 
     def test_all_loads_are_on_the_axis_of_adhesion(self):
-        """The loads in full contact too."""
+        """The loads in full contact too. Numbers along it are so few that they have room."""
         self.run_deck("full", "&surface kind = 'wave_1d' /\n&load pbar_over_pstar = 0, 3 /\n"
                       "&interface work_of_adhesion = 0.02 /\n")
-        self.assertIn(" 2.5 3 ", self.drawn("full.adhesion.dat"))
+        shown = self.drawn("full.adhesion.dat")
+        self.assertIn(" 2.5 3 ", shown)
+        self.assertIn(" 0 1 2 3 ", shown)
 
     def test_fields_with_adhesion(self):
         """They stand beside the summary and edges with adhesion; contact is where the gap is closed, under tension too;
@@ -411,6 +414,8 @@ class Plot(ProgramTest):
                 self.assertIn(f"stroke='{OUTLINE}'", text)
         self.assertRegex(self.drawn("--loads", "4", "sticky.adhesion_map.npy"), r"−60 .*pressure p \[MPa\]")
         self.assertIn(" 10 mean pressure", self.drawn("sticky.adhesion_contour.dat"))
+        shown = self.drawn("sticky.adhesion.dat")
+        self.assertEqual((2, 0), (shown.count("p̄ [MPa]"), shown.count("p̄/p*")))
         with_numpy = subprocess.run([sys.executable, "-c", "import numpy"], capture_output=True, check=False)
         if with_numpy.returncode == 0:
             self.assertNotIn("gap", self.drawn("--loads", "4", "--variable", "regions", "sticky.adhesion_map.npy"))
@@ -419,6 +424,22 @@ class Plot(ProgramTest):
         self.assertIn("load 2", self.drawn("--loads", "2,3", "bad/alone.adhesion_map.npy"))
         self.assertIn("need the summary",
                       self.plot("--variable", "regions", "bad/alone.adhesion_map.npy", status=3)[1])
+
+    def test_contacts_without_adhesion_say_so(self):
+        """In decks with adhesion. A map in numpy's format takes the head of the summary. A long title is cut before."""
+        long = f"&scene title = '{'A long title ' * 15}' /\n"
+        self.run_deck("both", long + WAVE + "&interface work_of_adhesion = 0.05 /\n"
+                      "&output map = t, lines = t, map_format = 'npy', map_points = 16, height = t /\n")
+        for name, is_said in (("summary.dat", True), ("interface.dat", True), ("lines.dat", True), ("map.npy", True),
+                              ("adhesion.dat", False), ("adhesion_lines.dat", False), ("adhesion_map.npy", False),
+                              ("height.npy", False)):
+            with self.subTest(table=name):
+                self.plot("--format", "svg", "--loads", "2", f"both.{name}")
+                self.pictures[f"both.{name}",] = (self.folder/f"both.{name}").with_suffix(".svg")
+                self.assertEqual(is_said, "… (contact without adhesion)" in self.drawn(f"both.{name}"))
+        self.assertIn("without adhesion", self.drawn("--compare", "both.lines.dat", "auto.lines.dat"))
+        self.assertNotIn("without adhesion", self.drawn("--compare", "both.lines.dat", "both.adhesion_lines.dat"))
+        self.assertNotIn("without adhesion", self.drawn("auto.summary.dat"))
 
     def test_stresses_of_two_bodies(self):
         for name in ("bodies.stress_line.dat", "bodies.stress_section.dat", "bodies.stress_planes.npy"):
