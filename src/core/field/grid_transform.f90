@@ -34,8 +34,8 @@ module wavycon_grid_transform
 
    !> Number of rows of the spectrum that are copied at a time, and of elements of each of them, so that copies use
    !> whole lines of the processor's cache on both sides. On 1024 x 1024 points 16 and 8 rows took 1.03 and 1.10 times
-   !> as long. With whole rows in place of 8 elements of each, a load of full contact on 4096 x 4096 points took 1.2 times
-   !> as long, the copies three times. The numbers change no digit.
+   !> as long. With whole rows in place of 8 elements of each, full contact on 4096 x 4096 points took 1.2 times as
+   !> long, the copies three times. The numbers change no digit.
    integer, parameter :: block_rows = 32, block_elements = 8
    !> Unused numbers between these rows in memory. Without them elements of rows whose length is a power of two would
    !> compete for the same place in the cache, and the transform of 1024 x 1024 points takes 1.4 times as long.
