@@ -42,7 +42,8 @@ MISTAKES = {"wc.wave_2d(amplitud=1)": "amplitud", "wc.wave_2d(amplitude='1')": "
             "wc.solve(wc.wave_2d(), mean_gap=1)[0].mean_gab": "mean_gab",
             "wc.solve(wc.wave_2d(), mean_gap=1)[0].plot_map('presure')": "presure",
             "wc.solve(wc.wave_2d(), mean_gap=1).plot(y='mean_gab')": "mean_gab",
-            "wc.solve(wc.wave_2d(), mean_gap=1).plot('mean_gap', 'pressur')": "pressur"}
+            "wc.solve(wc.wave_2d(), mean_gap=1).plot('mean_gap', 'pressur')": "pressur",
+            "wc.problem(wc.wave_2d()).find(mean_gap=[0.1, 0.2])": "list"}
 
 
 class ValuesTest(ProgramTest):

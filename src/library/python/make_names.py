@@ -147,6 +147,8 @@ def main():
         file.writelines(make_keys(group.capitalize(), f"Keys of &{group}.", own) for group, own in others.items())
         file.write(make_keys("Map", "Keys of height maps.", [key for key in keys["surface"] if key["name"] != "file"
                                                              and "file" in key.get("read_by", ())]))
+        file.write(make_keys("OneLoad", "A load: a key of &load with one value.",
+                             [{**key, "most_values": 1} for key in keys["load"]]))
         file.write(make_keys("Settings", "Keys of all groups but &surface and &load, and these groups.", settings,
                              groups=[group for group in others if group != "load"]))
         file.write(make_keys("Options", "Settings and loads: the options of solve.", [], "Settings, Load", ["load"]))

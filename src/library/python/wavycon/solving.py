@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import library
 from .deck import NEAR, dictionary, groups_of, scene_of, value_text
 from .library import Handle, address, call, keys, one_number, reals
-from .names import Load, Options, Settings, Unpack
+from .names import Load, OneLoad, Options, Settings, Unpack
 from .progress import Watch
 from .results import Facts, Result, Results, note_news
 from .surfaces import SIDES, Surface
@@ -144,7 +144,7 @@ class Problem:
         return solve_all(self._scene, self._facts, order.tolist(), progress,
                          lambda scene, load: call("solve", scene, name.encode(), values[load - 1]))
 
-    def find(self, *, progress: bool = True, **load: Unpack[Load]) -> Result:
+    def find(self, *, progress: bool = True, **load: Unpack[OneLoad]) -> Result:
         """The load at which a quantity of &load has this value, such as contact_area_fraction=0.3, or percolates: its
         table "percolation" has the error of the load. solve of the same value gives Results, which can be saved.
         progress: as of solve."""
