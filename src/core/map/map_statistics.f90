@@ -20,6 +20,12 @@ module wavycon_map_statistics
       !> Root mean square of the differences between the last points and the first ones, which are neighbours if the map
       !> is continued periodically [length].
       real(dp) :: border_step(2) = 0.0_dp
+      !> Along x and along y: the sum of the squared second differences about the first points, over that about the
+      !> second ones; about 1 for smooth heights, 1 where the border is flat. About the first points they reach over it.
+      real(dp) :: border_bend(2) = 1.0_dp
+      !> Along x and along y: whether the heights one point from the border are equal on both sides. Along y this is not
+      !> known of a map that is distributed over processes, and counts as true.
+      logical :: border_is_even(2) = .true.
       !> Root mean squares of slope and curvature by differences between neighbours, eq. (M25) [-, 1/length].
       real(dp) :: slope_by_differences = 0.0_dp, curvature_by_differences = 0.0_dp
       integer :: spikes = 0                        !! number of spikes, if the map was searched for them
@@ -36,8 +42,11 @@ module wavycon_map_statistics
       type(map_changes) :: changes                 !! what was done to the measured map
       character(:), allocatable :: path            !! absolute path of the file; empty if there is no file
    contains
-      procedure :: is_broken_along
+      procedure :: is_broken_along, repeats_ends_along
    end type map_statistics
+
+   !> Differences below this part of the heights are rounding.
+   real(dp), parameter :: rounding = 1e-12_dp
 
 contains
 
@@ -78,12 +87,14 @@ contains
       real(dp), dimension(size(height, 1), 1) :: behind, next
       real(dp), dimension(size(height, 1)) :: ahead, bend, here, here_squared, to_last, to_next
       !> Sums over a column of the squared differences to the next column: the largest within the map; across its
-      !> border.
-      real(dp) :: across(2)
+      !> border; of the squared second differences about the first column and about the second one.
+      real(dp) :: across(4)
       real(dp) :: moments(2:4), over_step(2), squares(size(height, 1)), numbers(3), x_steps(0:size(height, 1))
       !> For each column: 1, 2: sums of the squared differences along x, along y; 3: sum of the squared curvature; 4:
-      !> squared difference between the last point along x and the first; 5 to 7: sums of the heights' powers 2 to 4.
-      real(dp) :: column_sums(7, size(height, 2)), totals(7)
+      !> squared difference between the last point along x and the first; 5 to 7: sums of the heights' powers 2 to 4; 8,
+      !> 9: squared second differences about the first point along x and about the second one; 10: squared difference
+      !> between the last but one point along x and the second one.
+      real(dp) :: column_sums(10, size(height, 2)), totals(10)
       integer :: first, j, last
 
       ! Heights are divided by the largest one, steps by the least one: their powers do not overflow.
@@ -119,12 +130,15 @@ contains
             squares = squares + x_steps(1:)**2
             column_sums(1, j) = inner_product(x_steps(1:last), x_steps(1:last))
             column_sums(4, j) = x_steps(m)**2
+            column_sums(8:9, j) = (x_steps([1, min(2, m)]) - x_steps([0, 1]))**2
+            column_sums(10, j) = (here(max(1, m - 1)) - here(min(2, m)))**2
             here_squared = here**2
             column_sums(5:7, j) = [inner_product(here, here), inner_product(here_squared, here), &
                              inner_product(here_squared, here_squared)]
             associate (column => slab%first - 1 + j, y_squares => inner_product(to_next, to_next))
                if (column < n) across(1) = max(across(1), y_squares)
                if (column == n) across(2) = y_squares
+               if (any(column == [1, 2])) across(2 + column) = sum((to_next - to_last)**2)
                if (column < n .or. repeats) column_sums(2, j) = y_squares
                if (n > 1 .and. .not. repeats .and. any(column == [1, n])) cycle
             end associate
@@ -137,8 +151,13 @@ contains
          totals = slab%column_totals(column_sums)
          statistics%largest_step = unit*sqrt([maxval(squares(:m - 1))/n, across(1)/m])
          statistics%border_step = unit*sqrt([totals(4)/n, across(2)/m])
-         moments = totals(5:)/(real(m, dp)*n)
+         moments = totals(5:7)/(real(m, dp)*n)
+         where ([totals(8), across(3)] > 0.0_dp) &
+            statistics%border_bend = [totals(8), across(3)]/max([totals(9), across(4)], tiny(unit))
       end associate
+      statistics%border_is_even(1) = totals(10) <= (rounding*size(height, 1))**2
+      if (size(height, 2) == slab%points(2)) statistics%border_is_even(2) = all( &
+         abs(height(:, max(1, slab%points(2) - 1)) - height(:, min(2, slab%points(2)))) <= rounding*unit)
       statistics%rms = unit*sqrt(moments(2))
       statistics%skewness = moments(3)/(moments(2)*sqrt(moments(2)))
       statistics%kurtosis = moments(4)/moments(2)**2
@@ -170,5 +189,20 @@ contains
       is_broken_along = all(self%changes%edges /= ['mirror', 'free  ']) .and. &
                         self%border_step(direction) > border_ratio*self%largest_step(direction)
    end function is_broken_along
+
+   !> Whether the last points seem to be the first ones once more. Their heights are equal, and then the map is not even
+   !> about its border, or it bends there a quarter as much as beside. A periodic map ends a step before. An even map
+   !> whose points are half a step from the border has equal heights too: smooth ones bend there as beside, white
+   !> noise a third as much.
+   elemental logical function repeats_ends_along(self, direction)
+      class(map_statistics), intent(in) :: self
+      integer, intent(in) :: direction   !! 1 or 2: along x or y
+
+      real(dp), parameter :: least_bend = 0.29_dp
+
+      repeats_ends_along = self%changes%edges == 'periodic' .and. self%largest_step(direction) > 0.0_dp .and. &
+                           self%border_step(direction) <= rounding*self%largest_step(direction) .and. &
+                           .not. (self%border_is_even(direction) .and. self%border_bend(direction) > least_bend)
+   end function repeats_ends_along
 
 end module wavycon_map_statistics

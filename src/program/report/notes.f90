@@ -123,7 +123,8 @@ contains
    end subroutine note_scene
 
    !> Notes what is suspicious in a height map: sides that seem to be exchanged, a missing_value that does not occur or
-   !> is not given, spikes, borders that do not fit together, noise, filters that leave almost nothing.
+   !> is not given, spikes, borders that do not fit together or stand there twice, noise, filters that leave almost
+   !> nothing.
    subroutine note_map(scene, map, logger)
       type(scene_type), intent(in) :: scene
       type(map_statistics), intent(in) :: map   !! statistics of the scene's height map
@@ -178,6 +179,8 @@ contains
             ' the last heights differ from the first by '//short_number(map%border_step(direction))//' ['// &
             scene%length_unit//'] (rms), neighbours inside by at most '//short_number(map%largest_step(direction))// &
             '; such steps carry load. Remedies: '//remedies)
+         if (map%repeats_ends_along(direction)) call logger%note('along '//'xy'(direction:direction)// &
+            ' the last heights are the first ones once more: a periodic map ends a step before. Leave them out')
       end do
       ! A border that does not fit is a step between two points and lowers the ratio too: it was noted above.
       if (map%slope_by_differences >= least_ratio*scene%roughness%slope .or. any(map%is_broken_along([1, 2]))) return
