@@ -15,8 +15,8 @@ module wavycon_notes
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_approach, by_contact_area, by_percolation, by_pressure, by_yield, scene_type, &
       target_words
-   use wavycon_solution_record, only: by_beale, by_grid, by_series, converged, iteration_limit, not_accurate, &
-      not_found, solution_record, solver_names, status_name, unresolved
+   use wavycon_solution_record, only: above_hardness, by_beale, by_grid, by_series, converged, iteration_limit, &
+      not_accurate, not_found, solution_record, solver_names, status_name, unresolved
    use wavycon_surface, only: surface_type
    use wavycon_units, only: meant_unit
    implicit none (type, external)
@@ -122,9 +122,9 @@ contains
 
    end subroutine note_scene
 
-   !> Notes what is suspicious in a height map: sides that seem to be exchanged, a missing_value that does not occur or
-   !> is not given, spikes, borders that do not fit together or stand there twice, noise, filters that leave almost
-   !> nothing.
+   !> Notes what is suspicious in a height map: sides that seem to be exchanged, unequal steps, filters that leave
+   !> nothing out or almost everything, a missing_value that does not occur or is not given, spikes, borders that do not
+   !> fit together or stand there twice, noise.
    subroutine note_map(scene, map, logger)
       type(scene_type), intent(in) :: scene
       type(map_statistics), intent(in) :: map   !! statistics of the scene's height map
@@ -149,6 +149,13 @@ contains
                'be alike')
          end if
       end associate
+      associate (steps => map%changes%uneven_steps)
+         if (steps(2) > 0.0_dp) call logger%note('the profile has unequal steps, from '//short_number(steps(1))// &
+            ' to '//short_number(steps(2))//' ['//scene%length_unit//'], and is resampled to equal ones')
+      end associate
+      if (map%changes%short_wavelength > 0.0_dp .and. .not. map%changes%rms_of_short > 0.0_dp) call logger%note( &
+         'no wave of the map is shorter than short_wavelength = '//short_number(map%changes%short_wavelength)// &
+         ' ['//scene%length_unit//']. Do the units agree?')
       if (map%lacks_missing_value) call logger%note('no height of the file has the missing_value of the deck')
       if (allocated(map%without_unit)) call logger%note(escaped(map%without_unit)//' names no unit, as the other '// &
          'map does: its heights are taken in ['//scene%length_unit//']. height_scale and file2_scale change that')
@@ -440,6 +447,8 @@ contains
          of_loads = ' of '//integer_text(size(loads))//' loads'
          call note_unresolved()
          call note_inaccurate()
+         call note_some(count(loads%status == above_hardness), &
+                        'the mean pressure is not below the hardness: the values are those of no contact')
          is_series = loads%solver == by_beale .or. loads%solver == by_series
          if (any(is_series)) call logger%note( &
             "the errors of the paper's truncated series are not estimated: with the paper's harmonics and points "// &

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import logging
 import os
 import re
 import sys
@@ -42,13 +43,15 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
     channel: name, or number in the file, from 0, of one of several; without it the first one of heights. Channels in
     degrees, volts and other units that are no lengths are refused. length_unit: to which the file's lengths are
     converted, or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend, fill_missing
-    and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all. A
-    profile of unequal steps is resampled to equal ones, with a warning. Files .gsf, grids of ESRI and numbers with a
-    decimal comma, which the program reads, and .npy need no SurfaceTopography; arrays in .npy have the shape (y, x) or
-    (x,), as in wavycon.heights. The program also reads other texts of numbers, as wavycon.file does.
+    and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all.
+    missing_value is for texts. Files .gsf, grids of ESRI and numbers with a decimal comma, which the program reads, and
+    .npy need no SurfaceTopography; arrays in .npy have the shape (y, x) or (x,), as in wavycon.heights. The program
+    also reads other texts of numbers, as wavycon.file does.
     """
     check_names("read", keys_of_maps, [*names.Map.__annotations__, "length_unit", "channel"])
     opened = open_file(file, channel, length_unit)
+    if opened and keys_of_maps.get("missing_value") is not None and b"\0" not in first_bytes(file, 65536):
+        opened = None   # a text: the program knows which of its numbers have this value
     if not opened:
         if channel not in (None, 0):
             raise ValueError(f"there is no channel {channel!r}: such a file has one, which has no name")
@@ -66,10 +69,10 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
         if keys_of_maps.get(key) is not None:
             why = f"the file has {sides[key]:g} {unit or ''}" if key in sides else "it is for wavycon.file"
             raise ValueError(f"{file}: leave out {key}: {why}".rstrip())
-    if x is not None:
-        tell([f"{file}: this profile has unequal steps and is resampled to equal ones"])
-        sides = {}
+    if unit and keys_of_maps.get("height_scale") is not None:
+        tell([f"{file}: the file names the unit of its heights, and height_scale multiplies them as well"])
     try:
+        sides = sides if x is None else {}
         return heights(z, x=x, length_unit=unit, **cast(names.Map, {**keys_of_maps, **sides}))
     except ValueError as error:
         raise ValueError(f"{file}: {error}") from None
@@ -98,11 +101,15 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
         opened = need("SurfaceTopography", "files").open_topography
     except ImportError as error:
         raise ImportError(f"{error}; without it wavycon.file reads texts of numbers") from None
+    logging.getLogger("igor2").setLevel(logging.CRITICAL)   # with its errors it logs all bytes of the file
     try:
         with opened(os.fspath(file)) as reader:
             # The number of bytes alone makes the one format, a name the other: of pictures that it does not know.
-            if (kind := reader.format()) == "hgt" != Path(file).suffix[1:].lower() or not reader.channels:
+            if (kind := reader.format()) == "hgt" != file_ending(file) or not reader.channels:
                 return None
+            if kind == "h5" and file_ending(file) == "nc":
+                raise NoHeights("it is NetCDF in the format of HDF5, whose order of axes is not told: "
+                                "wavycon.heights(xarray.open_dataarray(file)) reads it")
             info = choose(reader.channels, channel)
             known, are_lines = info.physical_sizes is not None, kind == "asc"
             if are_lines and GWYDDION_TEXT.match(start) and not (known and info.unit):
@@ -134,6 +141,10 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
     return x, z, dict(zip(SIDES, sides)), unit or own or None
 
 
+def file_ending(file: str | os.PathLike[str]) -> str:
+    return Path(file).suffix[1:].lower()
+
+
 def in_line(kind: type[Any], error: Exception) -> str:
     return " ".join(f"{kind.__name__}: {str(error).strip()}".splitlines()[0].split())
 
@@ -141,7 +152,7 @@ def in_line(kind: type[Any], error: Exception) -> str:
 def refusal(file: str | os.PathLike[str]) -> str | None:
     """What the reader of SurfaceTopography for the ending of a file says of it; None without such a reader."""
     for reader in need("SurfaceTopography.IO", "files").readers:
-        if Path(file).suffix[1:].lower() in (reader.format(), *reader.file_extensions()):
+        if file_ending(file) in (reader.format(), *reader.file_extensions()):
             try:
                 reader(os.fspath(file))
             except Exception as error:

@@ -128,8 +128,10 @@ def maker(function: Callable[Parameters, Surface]) -> Callable[Parameters, Surfa
 
 
 def unit_name(unit: Any) -> Any:
-    """The one name of a unit that has several: µ, the sign and the Greek letter, is u; the angstrom is a letter."""
-    return unicodedata.normalize("NFKC", unit).replace("\u03bc", "u") if isinstance(unit, str) else unit
+    """The one name of a unit that has several: µ, the sign and the Greek letter, is u, also where its two bytes were
+    taken for two letters; the angstrom is a letter."""
+    return unicodedata.normalize("NFKC", unit).replace("\u00c2", "").replace("\u03bc", "u") \
+        if isinstance(unit, str) else unit
 
 
 def check_names(function: str, given: Iterable[str], known: Iterable[str]) -> None:
