@@ -135,6 +135,8 @@ contains
       real(dp), parameter :: least_ratio = 0.9_dp
       !> Least rms height over that of the waves that a filter removed.
       real(dp), parameter :: least_left = 1e-3_dp
+      !> The same part below which it is rounding that a filter removes.
+      real(dp), parameter :: rounding = 1e-12_dp
       character(:), allocatable :: remedies
       integer :: direction, i
 
@@ -153,7 +155,8 @@ contains
          if (steps(2) > 0.0_dp) call logger%note('the profile has unequal steps, from '//short_number(steps(1))// &
             ' to '//short_number(steps(2))//' ['//scene%length_unit//'], and is resampled to equal ones')
       end associate
-      if (map%changes%short_wavelength > 0.0_dp .and. .not. map%changes%rms_of_short > 0.0_dp) call logger%note( &
+      if (map%changes%short_wavelength > 0.0_dp .and. &
+          map%changes%rms_of_short <= rounding*scene%roughness%height) call logger%note( &
          'no wave of the map is shorter than short_wavelength = '//short_number(map%changes%short_wavelength)// &
          ' ['//scene%length_unit//']. Do the units agree?')
       if (map%lacks_missing_value) call logger%note('no height of the file has the missing_value of the deck')
