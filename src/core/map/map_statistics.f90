@@ -153,7 +153,7 @@ contains
          statistics%border_step = unit*sqrt([totals(4)/n, across(2)/m])
          moments = totals(5:7)/(real(m, dp)*n)
          where ([totals(8), across(3)] > 0.0_dp) &
-            statistics%border_bend = [totals(8), across(3)]/max([totals(9), across(4)], tiny(unit))
+            statistics%border_bend = [totals(8), across(3)]/max([totals(9), across(4)], epsilon(unit))
       end associate
       statistics%border_is_even(1) = totals(10) <= (rounding*size(height, 1))**2
       if (size(height, 2) == slab%points(2)) statistics%border_is_even(2) = all( &
