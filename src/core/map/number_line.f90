@@ -15,13 +15,15 @@ module wavycon_number_line
    character(*), parameter :: tab = achar(9)
    !> The characters that may stand between numbers.
    character(*), parameter, public :: gaps = ' ,;"'//tab
+   character(*), parameter, public :: decimal_digits = '0123456789'
 
 contains
 
    !> Reads the numbers of a line. Callers must switch off traps of overflow.
    !>
    !> A decimal comma would make two numbers of one. It is suspected, and refused, where one comma stands without blanks
-   !> between two numbers of a line that separates other numbers in another way.
+   !> between two numbers of a line that separates other numbers in another way, or before digits that begin with 0, as
+   !> fractions do.
    subroutine read_line(line, values, used, ends_open, trouble)
       character(*), intent(in) :: line         !! without comment and line end
       real(dp), intent(inout) :: values(:)     !! numbers, NaN if missing; its size must exceed the bytes of the line
@@ -52,12 +54,14 @@ contains
          else
             if (commas == 1 .and. first - behind == 1) tight = first
             is_loose = is_loose .or. commas == 0
+            if (tight == first .and. last > first) &
+               is_loose = is_loose .or. (line(first:first) == '0' .and. verify(line(first:last), decimal_digits) == 0)
             if (tight > 0 .and. is_loose) then
                first = scan(line(:tight - 2), gaps, back=.true.) + 1
                last = scan(line(tight:)//' ', gaps) + tight - 2
                trouble = "is '"//excerpt(line(first:last))// &
                          "' a number with a decimal comma? Write a point, or separate all numbers of a line by "// &
-                         'commas alone'
+                         'commas alone, without zeros before their digits'
                return
             end if
          end if

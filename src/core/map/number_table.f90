@@ -7,7 +7,7 @@ module wavycon_number_table
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: byte_order_mark, read_file
    use wavycon_kinds, only: dp, ieee_is_finite, not_a_number
-   use wavycon_number_line, only: gaps, is_missing, read_line
+   use wavycon_number_line, only: decimal_digits, gaps, is_missing, read_line
    use wavycon_plain_text, only: escaped, integer_text, lower_case
    implicit none (type, external)
    private
@@ -168,7 +168,6 @@ contains
    pure subroutine write_decimal_points(content)
       character(*), intent(inout) :: content
 
-      character(*), parameter :: decimal_digits = '0123456789'
       integer :: behind, first, k, last, next, pass
 
       if (index(content, ',') == 0) return
