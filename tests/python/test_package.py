@@ -657,6 +657,8 @@ class Sweeps(PackageTest):
         failed = frame[frame.status == "failed"]
         self.assertEqual([1, 2, 3], failed["surface.seed"].tolist())
         self.assertTrue(failed.message.str.contains("is a tension").all())
+        maps = [wc.heights(numpy.where(numpy.arange(64).reshape(8, 8) == 9, numpy.nan, 0.0))]
+        self.assertRegex(wc.sweep(maps, pbar_over_pstar=0.1).message[0], "^heights0.npy: 1 of 64 heights are missing")
         one = wc.run("rough.nml", {"surface.seed": 2, "load.pbar_over_pstar": [0.2, 0.3]})
         rows = frame[(frame["surface.seed"] == 2) & (frame["load.pbar_over_pstar"].map(str) == "[0.2, 0.3]")]
         for column in "mean_gap", "contact_area", "peak_pressure":

@@ -79,6 +79,7 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
                 started.append(process)
                 log, message = process.communicate()
                 message = message.strip() or "\n".join(re.findall("^note: (.*)$", log, re.MULTILINE))
+                message = message.replace(own + os.sep, "")   # the files of surfaces have names of this folder
             if table.exists():
                 rows = pandas.read_csv(table, dtype=str, keep_default_na=False).loc[:, "load":].apply(numbers)
                 heads = [head.rstrip("]").partition("[") for head in rows]
