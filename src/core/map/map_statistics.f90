@@ -21,7 +21,8 @@ module wavycon_map_statistics
       !> is continued periodically [length].
       real(dp) :: border_step(2) = 0.0_dp
       !> Along x and along y: the sum of the squared second differences about the first points, over that about the
-      !> second ones; about 1 for smooth heights, 1 where the border is flat. About the first points they reach over it.
+      !> second ones; about 1 for smooth heights, 1 where the border is flat. Those about the first points have the last
+      !> points in them, which are beyond the border.
       real(dp) :: border_bend(2) = 1.0_dp
       !> Along x and along y: whether the heights one point from the border are equal on both sides. Along y this is not
       !> known of a map that is distributed over processes, and counts as true.

@@ -63,13 +63,13 @@ contains
       logical, intent(in) :: makes_directory          !! whether its directory is made; if not it may be absent
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: full, mark, trouble
+      character(:), allocatable :: folder, full, mark, trouble
       character(24), allocatable :: kinds(:)
       integer :: d, k, number
       type(table_type), allocatable :: tables(:)
 
-      full = path(:index(path, '/', back=.true.))//'.'
-      if (makes_directory) call make_directories(full, trouble)
+      folder = path(:index(path, '/', back=.true.))//'.'
+      if (makes_directory) call make_directories(folder, trouble)
       if (allocated(trouble)) then
          call fatal_error(error, exit_file_trouble, escaped(path)//': its directory cannot be made: '//escaped(trouble))
          return
@@ -77,7 +77,7 @@ contains
       mark = table_mark
       if (has_commas(path)) mark = comma_mark
       number = 0
-      if (path_kind(full) == path_directory) number = refusal_to_write(path//c_null_char, mark//c_null_char)
+      if (path_kind(folder) == path_directory) number = refusal_to_write(path//c_null_char, mark//c_null_char)
       if (number /= 0) trouble = error_text(number)
       if (path_kind(path) == path_directory .or. index(path, '/', back=.true.) == len(path)) &
          trouble = 'this is a directory'

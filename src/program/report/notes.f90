@@ -143,7 +143,8 @@ contains
       if (scene%has_units .and. index(map%assumed_sides, 'length_x') == 1) call logger%note( &
          'the side length_x = 1 ['//scene%length_unit//'] is assumed: neither the deck nor the file gives it')
       associate (sides => [scene%surface_values%length_x%number, scene%surface_values%length_y%number])
-         if (all(map%points > 1) .and. scene%surface_values%length_y%is_given) then
+         if (all(map%points > 1) .and. scene%surface_values%length_x%is_given .and. &
+             scene%surface_values%length_y%is_given) then
             if (are_near(sides(1)*map%points(1), sides(2)*map%points(2)) .and. &
                 .not. are_near(sides(1)*map%points(2), sides(2)*map%points(1))) call logger%note( &
                'the points are '//short_number(sides(1)/map%points(1))//' apart along x and '// &

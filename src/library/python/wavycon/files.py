@@ -49,9 +49,7 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
     also reads other texts of numbers, as wavycon.file does.
     """
     check_names("read", keys_of_maps, [*names.Map.__annotations__, "length_unit", "channel"])
-    opened = open_file(file, channel, length_unit)
-    if opened and keys_of_maps.get("missing_value") is not None and b"\0" not in first_bytes(file, 65536):
-        opened = None   # a text: the program knows which of its numbers have this value
+    opened = open_file(file, channel, length_unit, keys_of_maps.get("missing_value") is not None)
     if not opened:
         if channel not in (None, 0):
             raise ValueError(f"there is no channel {channel!r}: such a file has one, which has no name")
@@ -79,7 +77,7 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
 
 
 def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str | None = None,
-              ) -> tuple[Array | None, Array, dict[str, float], str | None] | None:
+              has_missing_value: bool = False) -> tuple[Array | None, Array, dict[str, float], str | None] | None:
     """What a file holds, in a unit of length if one is given: the places of unequal steps (None: equal steps), the
     heights (y, x) or (x,), NaN where they are missing, the sides as keys, none where the file lacks them, and the unit
     (None: unknown). None for a file that the program reads, or tells best what is wrong with it. Errors: ValueError."""
@@ -89,7 +87,8 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
         raise FileNotFoundError(f"{file}: {'this is no file' if os.path.exists(file) else 'there is no such file'}")
     if not (start := first_bytes(file, 65536)):
         raise ValueError(f"{file}: the file is empty")
-    if GSF_OR_ESRI.match(start) or DECIMAL_COMMAS.search(start):
+    # Of texts the program knows which numbers have the value of missing ones.
+    if GSF_OR_ESRI.match(start) or DECIMAL_COMMAS.search(start) or (has_missing_value and b"\0" not in start):
         return None
     if start.startswith(b"\x93NUMPY"):
         # SurfaceTopography takes the first index of an array for x, the program for y.
