@@ -5,7 +5,7 @@ module wavycon_plain_text
    private
 
    public :: lower_case, integer_text, short_number, exact_number, quoted, unquoted, system_words
-   public :: clauses, in_quotes, listed, percent, replaced, with_mark
+   public :: clauses, in_quotes, lines_of, listed, percent, replaced, with_mark
    public :: is_printable, escaped, excerpt, character_count
 
    !> An integer in decimal, without blanks.
@@ -13,7 +13,7 @@ module wavycon_plain_text
       procedure :: default_integer_text, long_integer_text
    end interface integer_text
 
-   character(*), parameter, public :: newline = achar(10)
+   character(*), parameter, public :: newline = achar(10), decimal_digits = '0123456789'
 
    character(*), parameter :: hexadecimal = '0123456789ABCDEF'
 
@@ -148,6 +148,28 @@ contains
          words = words//separator//trim(names(i))
       end do
    end function listed
+
+   !> The lines of a text, padded with blanks; none of an empty text.
+   pure function lines_of(text) result(lines)
+      character(*), intent(in) :: text
+      character(:), allocatable :: lines(:)
+
+      integer :: first, i, last, length, pass
+
+      length = 0
+      do pass = 1, 2   ! finds the number of lines and the longest one; takes them
+         first = 1
+         i = 0
+         do while (first <= len(text))
+            last = first + index(text(first:)//newline, newline) - 2
+            length = max(length, last - first + 1)
+            i = i + 1
+            if (pass == 2) lines(i) = text(first:last)
+            first = last + 2
+         end do
+         if (pass == 1) allocate (character(length) :: lines(i))
+      end do
+   end function lines_of
 
    !> Two clauses of a sentence, 'first; second'.
    pure function clauses(first, second) result(words)

@@ -8,7 +8,8 @@ module wavycon_c_functions
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_key_reference, only: key_json
    use wavycon_kinds, only: dp
-   use wavycon_nearest_name, only: did_you_mean
+   use wavycon_nearest_name, only: did_you_mean, near_names
+   use wavycon_plain_text, only: lines_of, lower_case, newline
    use wavycon_run_scene, only: run_deck
    use wavycon_session_fields, only: bounds_from_fields, check_number, fields_at, fields_on_grid, map_grid, &
       own_points, stresses_at, stresses_on_plane
@@ -199,6 +200,39 @@ contains
       if (.not. allocated(this%trouble)) needed = put_text(words, buffer, bytes)
       ignored = this%code()
    end function get_text
+
+   integer(c_size_t) function get_near_names(error, name, names, meanings, buffer, bytes) result(needed) &
+      bind(c, name='wavycon_get_near_names')
+      type(c_ptr), value :: error
+      character(kind=c_char), intent(in), optional :: name(*), names(*), meanings(*)
+      character(kind=c_char), intent(inout), optional :: buffer(*)
+      integer(c_size_t), value :: bytes
+
+      character(:), allocatable :: known(:), meaning(:), words
+      integer, allocatable :: near(:)
+      integer :: i
+      integer(c_int) :: ignored
+      type(c_call) :: this
+
+      words = ''
+      if (this%begins(error, needs='wavycon_get_near_names name names', are_there=[present(name), present(names)])) then
+         allocate (known, source=lines_of(text_at(names)))
+         if (present(meanings)) allocate (meaning, source=lines_of(text_at(meanings)))
+         if (allocated(meaning)) then
+            if (size(meaning) /= size(known)) call fatal_error(this%trouble, exit_bad_input, &
+               'names and meanings must have as many lines each')
+         end if
+      end if
+      if (.not. allocated(this%trouble)) then
+         allocate (near, source=near_names(lower_case(text_at(name)), &
+                                          lines_of(lower_case(text_at(names))), meanings=meaning))
+         do i = 1, size(near)
+            words = words//trim(known(near(i)))//newline
+         end do
+      end if
+      needed = put_text(words, buffer, bytes)
+      ignored = this%code()
+   end function get_near_names
 
    type(c_ptr) function new_table(error, solution, name) result(handle) bind(c, name='wavycon_new_table')
       type(c_ptr), value :: error, solution

@@ -15,7 +15,7 @@ module wavycon_deck_session
    use wavycon_methods, only: why_chosen, without_errors
    use wavycon_nearest_name, only: did_you_mean
    use wavycon_notes, only: note_loads, note_scene
-   use wavycon_plain_text, only: integer_text, listed, newline
+   use wavycon_plain_text, only: integer_text, lines_of, listed
    use wavycon_quantities, only: quantities
    use wavycon_read_deck, only: parse_deck
    use wavycon_results, only: results_type
@@ -149,19 +149,16 @@ contains
       character(:), allocatable :: trouble
       type(deck_text_type) :: text
       type(setting_type), allocatable :: setting(:)
-      integer :: first, i, last, lines
+      integer :: i
 
-      lines = 0
-      if (settings /= '') lines = 1 + count([(settings(i:i) == newline, i=1, len(settings))])
-      allocate (setting(lines))
-      first = 1
-      do i = 1, size(setting)
-         last = first + index(settings(first:)//newline, newline) - 2
-         call read_setting(settings(first:last), setting(i), trouble)
-         if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble)
-         if (allocated(error)) return
-         first = last + 2
-      end do
+      associate (lines => lines_of(settings))
+         allocate (setting(size(lines)))
+         do i = 1, size(setting)
+            call read_setting(trim(lines(i)), setting(i), trouble)
+            if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble)
+            if (allocated(error)) return
+         end do
+      end associate
       call read_deck_text(path, text, error)
       if (.not. allocated(error)) call self%open(text%content, path, keep_fields, error, settings=setting)
    end subroutine open_file

@@ -125,6 +125,13 @@ int wavycon_get(wavycon_error error, const void *object, const char *name, doubl
    Of NULL: "version"; "keys" (all groups and keys of decks with type, unit, default, bounds and meaning, as JSON). */
 size_t wavycon_get_text(wavycon_error error, const void *object, const char *name, char *buffer, size_t bytes);
 
+/* Copies the known names that may be meant by an unknown one, best first, a line each, cut to the size of the buffer;
+   none if none is near. Returns the number of bytes that all of them need, with the null character.
+   names: the known names, a line each. meanings: NULL, or what they mean, a line each, in which words of the unknown
+   name are looked for if no name is near. */
+size_t wavycon_get_near_names(wavycon_error error, const char *name, const char *names, const char *meanings,
+                              char *buffer, size_t bytes);
+
 /* Makes a table of a solution.
    name: "summary"; the table of a key of &output, such as "contours", "spots", "map" or "histograms"; or of a key of
    &stress, such as "stress_largest", "stress_line" or "stress_planes".

@@ -140,12 +140,12 @@ class Names(ValuesTest):
         wave = wc.wave_2d()
         for name, words in {"pressure": "'mean_pressure'", "gap": "'mean_gap'", "area": "'contact_area'", "E1": "'e1'",
                             "lenght_unit": "'length_unit'", "units": "'length_unit'", "young": "'e1', 'e2' or 'base_e'",
-                            "youngs_modulus": "'e1', 'e2' or 'base_e'", "poisson_ratio": "'nu1', 'nu2' or 'layer_nu'",
+                            "youngs_modulus": "'e1', 'e2' or 'base_e'", "poisson_ratio": "'nu1', 'nu2', 'layer_nu' or 'base_nu'",
                             "yiield": "'yield'", "depth": "'depths'", "histogram": "'histograms'",
                             "resistivity": "'resistivity1'"}.items():
             self.refuse(rf"no key '{name}'; did you mean {words}\?", wc.solve, wave, **{name: 1})
-        for name in "tolerance", "E":
-            self.refuse(f"no key '{name}'$", wc.solve, wave, **{name: 1})
+        self.refuse("no key 'tolerance'$", wc.solve, wave, tolerance=1)
+        self.refuse("no key 'E'; did you mean 'e1'", wc.solve, wave, E=1)
         self.refuse("several groups have a key 'nu': .*, or nu1, or nu2", wc.solve, wave, nu=0.3)
         self.refuse("did you mean 'length_unit', an option of solve", wc.file, lenght_unit="m")
         self.refuse("no key 'length_unit': it is an option of solve", wc.wave_2d, length_unit="m")

@@ -6,7 +6,7 @@
 module wavycon_number_line
    use wavycon_decimal_number, only: read_decimal
    use wavycon_kinds, only: dp, largest_number, not_a_number
-   use wavycon_plain_text, only: excerpt, lower_case, short_number
+   use wavycon_plain_text, only: decimal_digits, excerpt, lower_case, short_number
    implicit none (type, external)
    private
 
@@ -15,7 +15,6 @@ module wavycon_number_line
    character(*), parameter :: tab = achar(9)
    !> The characters that may stand between numbers.
    character(*), parameter, public :: gaps = ' ,;"'//tab
-   character(*), parameter, public :: decimal_digits = '0123456789'
 
 contains
 

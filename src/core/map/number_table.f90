@@ -7,8 +7,8 @@ module wavycon_number_table
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: byte_order_mark, read_file
    use wavycon_kinds, only: dp, ieee_is_finite, not_a_number
-   use wavycon_number_line, only: decimal_digits, gaps, is_missing, read_line
-   use wavycon_plain_text, only: escaped, integer_text, lower_case
+   use wavycon_number_line, only: gaps, is_missing, read_line
+   use wavycon_plain_text, only: decimal_digits, escaped, integer_text, lower_case
    implicit none (type, external)
    private
 

@@ -2,13 +2,13 @@
 module wavycon_deck_groups
    use wavycon_interface_group, only: list_interface_keys
    use wavycon_key_group, only: key_list
-   use wavycon_key_table, only: key_index, key_type, name_length, words_of
+   use wavycon_key_table, only: key_index
    use wavycon_load_group, only: list_load_keys
    use wavycon_material_group, only: list_material_keys
    use wavycon_methods, only: list_method_keys
    use wavycon_nearest_name, only: did_you_mean, nearest_slip
    use wavycon_output_group, only: list_output_keys
-   use wavycon_plain_text, only: excerpt, in_quotes, listed, lower_case, replaced
+   use wavycon_plain_text, only: excerpt, listed
    use wavycon_scene, only: scene_type
    use wavycon_scene_group, only: list_scene_keys
    use wavycon_stress_group, only: list_stress_keys
@@ -72,7 +72,8 @@ contains
       else if (key_index(list%rows, key(:bracket - 1)) > 0) then
          words = "elements are not given one by one: write '"//key(:bracket - 1)//" = value, value, ...'"
       else
-         otherwise = related_keys(key, list%rows)
+         otherwise = did_you_mean(key, list%rows%name, "'", "'", '; its keys are '//listed(list%rows%name), &
+                                  meanings=list%rows%meaning)
          do i = size(lists), 1, -1
             slip = nearest_slip(key, lists(i)%rows%name)
             if (slip > 0) otherwise = "; did you mean '"//trim(lists(i)%rows(slip)%name)//"' of &"// &
@@ -82,37 +83,5 @@ contains
                  did_you_mean(key, list%rows%name, "'", "'", otherwise, is_given)
       end if
    end function unknown_key
-
-   !> Words for an unknown key that has no similar name: which keys may be meant. The words of a name are what stands
-   !> between its underscores. Related are keys whose whole name is among the words of the unknown key; if there are
-   !> none, keys whose meaning contains the longest of these words. If no key or too many keys are related, all keys are
-   !> listed.
-   pure function related_keys(key, keys) result(words)
-      character(*), intent(in) :: key       !! in lower case
-      type(key_type), intent(in) :: keys(:)   !! table of the group's keys
-      character(:), allocatable :: words
-
-      !> Most letters of an unknown key, most related keys that are named, fewest letters of a word that is compared.
-      integer, parameter :: longest = 40, most_related = 4, shortest = 4
-      character(:), allocatable :: longest_word
-      character(longest) :: name_words   ! the words of the unknown key with blanks between them
-      character(name_length), allocatable :: split(:)
-      integer :: i
-      logical :: is_related(size(keys))
-
-      words = '; its keys are '//listed(keys%name)
-      if (len(key) > longest) return
-      name_words = replaced(key, '_', ' ')
-      if (name_words == '') return
-      allocate (split, source=words_of(name_words))
-      longest_word = trim(split(maxloc(len_trim(split), dim=1)))
-      is_related = [(len_trim(keys(i)%name) >= shortest .and. &
-                     index(' '//trim(name_words)//' ', ' '//trim(keys(i)%name)//' ') > 0, i=1, size(keys))]
-      if (.not. any(is_related)) &
-         is_related = [(len(longest_word) >= shortest .and. index(lower_case(keys(i)%meaning), longest_word) > 0, &
-                        i=1, size(keys))]
-      if (any(is_related) .and. count(is_related) <= most_related) &
-         words = '; did you mean '//listed(in_quotes(pack(keys%name, is_related)), ' or ')//'?'
-   end function related_keys
 
 end module wavycon_deck_groups

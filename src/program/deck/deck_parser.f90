@@ -9,7 +9,7 @@ module wavycon_deck_parser
    use wavycon_key_values, only: read_value, word_value
    use wavycon_kinds, only: dp
    use wavycon_nearest_name, only: nearest_name
-   use wavycon_plain_text, only: excerpt, integer_text, lower_case, newline, quoted
+   use wavycon_plain_text, only: decimal_digits, excerpt, integer_text, lower_case, newline, quoted
    use wavycon_problems, only: problem_list_type
    use wavycon_settings, only: replaces, setting_type
    implicit none (type, external)
@@ -377,10 +377,8 @@ contains
       character(*), intent(in) :: word   !! the word before the comma
       character(*), intent(in) :: rest   !! what follows the word
 
-      character(*), parameter :: digits = '0123456789'
-
-      may_be_decimal = verify(word(scan(word, '+-') + 1:), digits) == 0 .and. index(rest, ',') == 1 .and. &
-                       scan(rest(2:min(2, len(rest))), digits) == 1
+      may_be_decimal = verify(word(scan(word, '+-') + 1:), decimal_digits) == 0 .and. index(rest, ',') == 1 .and. &
+                       scan(rest(2:min(2, len(rest))), decimal_digits) == 1
    end function may_be_decimal
 
 end module wavycon_deck_parser

@@ -7,7 +7,7 @@ module wavycon_key_values
       name_length, real_value, text_value, words_of
    use wavycon_kinds, only: dp, ieee_is_nan, largest_number, smallest_number
    use wavycon_nearest_name, only: did_you_mean
-   use wavycon_plain_text, only: excerpt, integer_text, is_printable, lower_case, unquoted
+   use wavycon_plain_text, only: decimal_digits, excerpt, integer_text, is_printable, lower_case, unquoted
    implicit none (type, external)
    private
 
@@ -20,7 +20,6 @@ module wavycon_key_values
       character(:), allocatable :: text      !! value of a text or a choice, without the quotes
    end type word_value
 
-   character(*), parameter :: decimal_digits = '0123456789'
    character(*), parameter :: true_words(*) = ['.true.', 'true  ', '.t.   ', 't     ']
    character(*), parameter :: false_words(*) = ['.false.', 'false  ', '.f.    ', 'f      ']
 

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import names
 from .library import Handle, address, call, keys, reals
-from .surfaces import SIDES, Surface, check_names, meanings, slips, unit_name, unknown
+from .surfaces import SIDES, Surface, check_names, unit_name, unknown
 
 NEAR = 1e-3   # steps by which places of points may be off, which may have been computed in single precision
 
@@ -70,8 +70,8 @@ def sort_keys(given: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
             if name in keys()["surface"]:
                 raise ValueError(f"{name!r} is a key of surfaces: give it to the function that makes the surface")
             if not owners:
-                raise ValueError(unknown("key", name, known_keys, meanings(others)))
-            near = "".join(f", or {key}" for key in sorted(slips(name, [key for key in known_keys if key != name])))
+                raise ValueError(unknown("key", name, known_keys))
+            near = "".join(f", or {key}" for key in known_keys if key[:-1] == name)
             raise ValueError(f"several groups have a key '{name}': give one of {', '.join(owners)}={{...}}{near}")
         if value is not None:
             groups.setdefault(owners[0], {})[name] = value

@@ -78,8 +78,13 @@ def number(thing: Handle, name: str) -> float:
 
 
 def text(thing: Handle | None, name: str) -> str:
-    buffer = create_string_buffer(call("get_text", thing, name.encode(), None, 0))
-    call("get_text", thing, name.encode(), buffer, len(buffer))
+    return copied("get_text", thing, name.encode())
+
+
+def copied(function: str, *arguments: Any) -> str:
+    """The text that a function copies to a buffer."""
+    buffer = create_string_buffer(call(function, *arguments, None, 0))
+    call(function, *arguments, buffer, len(buffer))
     return buffer.value.decode()
 
 

@@ -3,23 +3,17 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-import difflib
 import functools
 import inspect
 import unicodedata
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from types import MappingProxyType
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, ParamSpec
 
 import numpy as np
 
-from .library import Array, Rows, address, call, keys, number, tell, text
+from .library import Array, Rows, address, call, copied, keys, number, tell, text
 
-FEW = 30          # names that a message lists
-MOST = 3          # names that a message proposes
-CLOSE = 0.75      # least similarity of names, by difflib, that differ by slips
-ONE_SLIP = 0.88   # the same by one, such as a missing s
-SHORTEST = 3, 4   # letters of a part of a name, and of a word of a meaning, that is looked for
+FEW = 30   # names that a message lists
 SIDES = "length_x", "length_y"
 # Words for the sides of a map or the step of its points, in place of the names of the sides.
 SIDE_WORDS = "dx dy extent lx ly pixel sampling sides size sizes spacing step width"
@@ -143,28 +137,29 @@ def check_names(function: str, given: Iterable[str], known: Iterable[str]) -> No
 
 
 def unknown_key(name: str, own: Sequence[str]) -> str:
-    """That a surface has no such key, and the nearest one, of its own or, if none of them is near, of solve."""
+    """That a surface has no such key, and what may be meant, of its own or, if that is nearer, of solve."""
     others = [key for group, known in keys().items() if group != "surface" for key in known]
     if name in others:
         return f"there is no key {name!r}: it is an option of solve"
-    if not slips(name, own) and (near := slips(name, others)):
-        return f"there is no key {name!r}; did you mean {near[0]!r}, an option of solve?"
-    if SIDES[0] in own and not (slips(name, own) or set(name.lower().split("_")).isdisjoint(SIDE_WORDS.split())):
+    if SIDES[0] in own and not set(name.lower().split("_")).isdisjoint(SIDE_WORDS.split()):
         return f"there is no key {name!r}; did you mean {SIDES[0]!r} and {SIDES[1]!r}, the sides of the whole cell?"
-    return unknown("key", name, own, meanings(["surface"]))
+    near = nearest(name, [*own, *others])
+    if near and near[0] not in own:
+        return f"there is no key {name!r}; did you mean {near[0]!r}, an option of solve?"
+    return unknown("key", name, own)
 
 
-def meanings(groups: Iterable[str]) -> dict[str, str]:
-    """What the keys of these groups mean."""
-    return {name: key["meaning"] for group in groups for name, key in keys()[group].items()}
+def nearest(name: object, names: Sequence[str]) -> list[str]:
+    """The names that may be meant, also by what keys of these names mean."""
+    meanings = {key: told["meaning"] for group in keys().values() for key, told in group.items()}
+    lines = "\n".join(names), "\n".join(meanings.get(one, "-") for one in names)
+    return copied("get_near_names", *(one.encode() for one in (str(name), *lines))).splitlines()
 
 
-def unknown(what: str, name: object, names: Iterable[object],
-            meanings: Mapping[str, str] = MappingProxyType({})) -> str:
-    """That there is no such name, and what may be meant, or all names if they are few. meanings: of names, in which
-    other words for a quantity are looked for."""
+def unknown(what: str, name: object, names: Iterable[object]) -> str:
+    """That there is no such name, and what may be meant, or all names if they are few."""
     texts = list(map(str, names))
-    near = list(map(repr, nearest(str(name), texts, meanings)))
+    near = list(map(repr, nearest(name, texts)))
     few = f"; there are {', '.join(texts)}" if texts and len(texts) <= FEW else ""
     return f"there is no {what} {name!r}" + (
         f"; did you mean {', '.join(near[:-1])}{' or '*(len(near) > 1)}{near[-1]}?" if near else few)
@@ -175,26 +170,3 @@ def column(rows: Rows, name: str) -> Rows:
     if name not in (rows.dtype.names or ()):
         raise KeyError(unknown("column", name, rows.dtype.names or ()))
     return rows[name]
-
-
-def nearest(name: str, names: Sequence[str], meanings: Mapping[str, str]) -> list[str]:
-    """The names that may be meant, by the first of these that finds one: that which differs by one slip; that which has
-    all words of the name, their slips mended, best at its end; that which differs by slips; those whose meanings have
-    the rarest word."""
-    words = [word for word in name.lower().split("_") if word] or [name]
-    known = sorted({part for one in names for part in one.lower().split("_")})
-    mended = [word if word in known else (slips(word, known) or [word])[0] for word in words]
-    have = [one for one in names if len(name) >= SHORTEST[0] and all(word in one.lower() for word in mended)]
-    have.sort(key=lambda one: (mended[-1] not in one.lower().split("_"), not one.endswith(mended[-1]), len(one)))
-    if near := slips(name, names, ONE_SLIP) or have or slips(name, names):
-        return near[:1]
-    described = [[one for one in names if word in meanings.get(one, "").lower().replace("'", "")]
-                 for word in words if len(word) >= SHORTEST[1]]
-    rarest = min(filter(None, described), key=len, default=[])
-    return rarest[:MOST] if len(rarest) <= 2*MOST else []
-
-
-def slips(name: str, names: Iterable[str], close: float = CLOSE) -> list[str]:
-    """The names, nearest first, of which few letters are wrong or swapped; of equally near ones the first."""
-    alike = {one: difflib.SequenceMatcher(None, one.lower(), name.lower()).ratio() for one in names}
-    return sorted((one for one in alike if alike[one] >= close), key=alike.__getitem__, reverse=True)[:MOST]
