@@ -191,12 +191,15 @@ contains
       else if (equals <= len(quantity) .and. keys(1)%rows(k)%kind /= choice_value) then
          call fatal_error(error, exit_bad_input, '&load: '//trim(quantity(:equals - 1))//" needs a number, got '"// &
                           trim(adjustl(quantity(equals + 1:)))//"'")
+      else if (equals > len(quantity) .and. keys(1)%rows(k)%kind == choice_value) then
+         call fatal_error(error, exit_bad_input, '&load: '//quantity//" needs a word, such as '"//quantity//'='// &
+                          keys(1)%rows(k)%choices(:index(keys(1)%rows(k)%choices, ' ') - 1)//"'")
       end if
       if (allocated(error)) return
       ! The checks skip a group that the deck does not have: mark the group as given.
       values%position = 1
       if (keys(1)%rows(k)%kind == choice_value) then
-         call keys(1)%take_value(k, text=trim(adjustl(quantity(min(equals, len(quantity)) + 1:))))
+         call keys(1)%take_value(k, text=trim(adjustl(quantity(equals + 1:))))
       else
          call keys(1)%take_value(k, number=value)
       end if

@@ -658,14 +658,16 @@ class Sweeps(PackageTest):
         self.assertEqual([1, 2, 3], failed["surface.seed"].tolist())
         self.assertTrue(failed.message.str.contains("is a tension").all())
         maps = [wc.heights(numpy.where(numpy.arange(64).reshape(8, 8) == 9, numpy.nan, 0.0))]
-        self.assertRegex(wc.sweep(maps, pbar_over_pstar=0.1).message[0], "^heights0.npy: 1 of 64 heights are missing")
+        self.refuse("^all runs failed; the first one: heights0.npy: 1 of 64 heights are missing", wc.sweep, maps,
+                    pbar_over_pstar=0.1)
+        self.refuse("all runs failed; .*&load", wc.sweep, wc.wave_1d(), {"material.e_star": [1, 2]})
         one = wc.run("rough.nml", {"surface.seed": 2, "load.pbar_over_pstar": [0.2, 0.3]})
         rows = frame[(frame["surface.seed"] == 2) & (frame["load.pbar_over_pstar"].map(str) == "[0.2, 0.3]")]
         for column in "mean_gap", "contact_area", "peak_pressure":
             self.assertLess(abs(rows[column].to_numpy()/getattr(one, column) - 1).max(), DIGITS)
         self.assertEqual(6, len(list(pathlib.Path("tables").glob("*.summary.dat"))))
         self.refuse("no run", wc.sweep, "rough.nml", {"surface.seed": []})
-        self.assertIn("there is no such file", wc.sweep("none.nml", {}).message[0])
+        self.refuse("there is no such file", wc.sweep, "none.nml")
 
 
 class Notes(PackageTest):
@@ -1121,7 +1123,18 @@ class Files(PackageTest):
         numpy.testing.assert_array_equal(-h, wc.read("maps.txt", "Second").heights)
         rows = "\n".join(f"{i},{i % 3}" for i in range(40))
         pathlib.Path("two.csv").write_text(f"x,z\n{rows}\n", encoding="utf-16")
-        self.assertEqual(40, wc.read("two.csv").heights.size)
+        for kind in "utf-16-le", "utf-16-be":
+            pathlib.Path("two.csv").write_text(f"\ufeffx,z\n{rows}\n", encoding=kind)
+            numpy.testing.assert_allclose(numpy.arange(40) % 3, wc.read("two.csv").heights[0])
+            self.assertEqual(40, wc.file(file="two.csv").prepared().heights.size)
+
+    def test_coordinates_are_no_heights(self):
+        """SurfaceTopography takes all numbers of a text for heights."""
+        h = numpy.random.default_rng(1).normal(size=(6, 8))
+        framed = numpy.block([[numpy.zeros((1, 1)), numpy.arange(8)[None]/2], [numpy.arange(6)[:, None]/2, h]])
+        for name, rows in ("x and y", framed), ("x", framed[:, 1:]), ("y", framed[1:]):
+            numpy.savetxt(f"{name}.txt", rows)
+            self.refuse(f"{name}.txt:1: .* equal steps", wc.read, f"{name}.txt")
 
     def test_the_line_at_which_x_does_not_rise(self):
         pathlib.Path("back.csv").write_text("x,z\n100.0,0\n101.1,.1\n102.0,.3\n102.0,.4\n103.3,.2\n")
@@ -1232,21 +1245,22 @@ class Files(PackageTest):
         h = numpy.random.default_rng(1).normal(size=(8, 12))
         numpy.savetxt("placeholder.txt", numpy.where(numpy.arange(12) == 5, -9999, h))
         surface = wc.read("placeholder.txt", length_x=3, missing_value=-9999, fill_missing="harmonic")
-        self.assertLess(numpy.ptp(surface.heights), 10)
+        self.assertLess(numpy.ptp(surface.prepared().heights), 10)
         numpy.save("map.npy", h)
-        self.refuse("map.npy: leave out missing_value: it is for wavycon.file", wc.read, "map.npy", missing_value=1)
+        numpy.save("map.npy", numpy.where(h < -1, -32768.1, h))
+        filled = wc.read("map.npy", missing_value=-32768.1, fill_missing="harmonic").prepared().heights
+        self.assertLess(numpy.ptp(filled), 10)
+        numpy.save("map.npy", numpy.where(h < -1, numpy.finfo(float).max, h))
+        self.assertEqual((h < -1).sum(), numpy.isnan(wc.read("map.npy").heights).sum())
 
     def test_unequal_steps(self):
         x = numpy.sort(numpy.random.default_rng(1).uniform(0, 1, 60))
         numpy.savetxt("profile.txt", numpy.c_[x, numpy.cos(9*x)])
+        surface = wc.read("profile.txt", edges="mirror")
         with self.assertWarnsRegex(wc.Note, "unequal steps"):
-            surface = wc.read("profile.txt", edges="mirror")
-        self.assertEqual(1, wc.solve(surface, pbar_over_pstar=0.2).dimension)
-        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()) as notes:
-            convert(["profile.txt", "profile.npy"])
-        self.assertRegex(notes.getvalue(), "^wavycon-convert: note: the profile has unequal steps, from .* is resampled")
+            self.assertEqual(1, wc.solve(surface, pbar_over_pstar=0.2).dimension)
         numpy.savetxt("holes.txt", numpy.c_[x, numpy.where(numpy.arange(60) == 7, numpy.nan, x)])
-        self.refuse("^holes.txt: x: . of 60 heights, resampled to equal steps, are missing", wc.read, "holes.txt")
+        self.refuse("holes.txt: . of 60 heights, resampled to equal steps, are missing", wc.read, "holes.txt")
 
     def test_misuse(self):
         (self.folder/"words.txt").write_text("no heights")

@@ -7,7 +7,7 @@ module wavycon_file_bytes
    implicit none (type, external)
    private
 
-   public :: open_file, read_file
+   public :: make_one_byte, open_file, read_file
 
    !> Byte order mark of UTF-8, with which some editors start a file.
    character(*), parameter, public :: byte_order_mark = char(239)//char(187)//char(191)
@@ -31,6 +31,21 @@ contains
       if (status /= 0) call fatal_error(error, exit_file_trouble, &
                                         escaped(path)//': cannot be read: '//system_words(message))
    end subroutine read_file
+
+   !> Leaves out the bytes that a text of two bytes a character (UTF-16, with its mark at the beginning) has beside those
+   !> of ASCII and Latin-1. Other characters become '?'. Other texts do not change.
+   pure subroutine make_one_byte(text)
+      character(:), allocatable, intent(inout) :: text
+
+      integer :: high, i   ! position of the upper byte of a character in its two bytes; number of the character
+
+      high = scan(text(:min(2, len(text))), char(254))   ! the mark is 254, 255 if the upper byte is the first
+      if (high == 0 .or. index(text(:min(2, len(text))), char(255)) /= 3 - high) return
+      do i = 1, (len(text) - 2)/2
+         text(i:i) = merge(text(2*i + 3 - high:2*i + 3 - high), '?', text(2*i + high:2*i + high) == char(0))
+      end do
+      text = text(:(len(text) - 2)/2)
+   end subroutine make_one_byte
 
    !> Opens a file for reading, as a stream of bytes. Errors: exit_file_trouble.
    subroutine open_file(path, unit, error)

@@ -35,11 +35,10 @@ contains
       character(:), allocatable :: words
 
       words = ''
-      ! A text has none of these bytes, unless it is one of two bytes a character, in which every other byte is 0.
+      ! A text has none of these bytes.
       if (scan(head, char(0)//char(1)//char(2)//char(3)//char(4)//char(5)//char(6)//char(127)) == 0) return
       words = remedy_of_name(path)
-      if (words == '') words = 'this is no text in UTF-8 or ASCII, and neither .npy nor .gsf. If it is a text of '// &
-                               'two bytes a character (UTF-16) save it as UTF-8, otherwise '//by_gwyddion
+      if (words == '') words = 'this is no text in UTF-8, UTF-16 or ASCII, and neither .npy nor .gsf: '//by_gwyddion
    end function remedy_of_content
 
    !> The same advice by the name of the file alone. Empty if the name has none of the endings.

@@ -6,6 +6,7 @@ module wavycon_map_file
       ieee_set_halting_mode, ieee_set_status, ieee_status_type
    use wavycon_binary_file, only: binary_file
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
+   use wavycon_file_bytes, only: make_one_byte
    use wavycon_foreign_format, only: remedy_of_content, remedy_of_name
    use wavycon_grid_slab, only: grid_slab
    use wavycon_gwyddion_map, only: blanks, entry_of, gsf_magic, in_english, read_gsf_map, take_esri_head, &
@@ -93,13 +94,14 @@ contains
 
    !> Reads a map from a text of numbers. Errors: as of read_height_map.
    subroutine read_text(file, map, error)
-      type(binary_file), intent(in) :: file
+      type(binary_file), intent(inout) :: file
       type(measured_map), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
       type(number_table) :: table
       character(:), allocatable :: remedy
 
+      call make_one_byte(file%head)
       remedy = remedy_of_content(file%head, file%path)
       if (index(file%head, npy_magic) == 1) remedy = "this is a file of numpy: file_format = 'npy' reads it"
       if (index(file%head, gsf_magic) == 1) remedy = "this is a file of Gwyddion: file_format = 'gsf' reads it"

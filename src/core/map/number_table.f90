@@ -5,7 +5,7 @@
 !> missing number, such as `#N/A` and `1.#QNAN`, does not begin a comment.
 module wavycon_number_table
    use wavycon_error, only: error_type, exit_bad_input, exit_file_trouble, fatal_error
-   use wavycon_file_bytes, only: byte_order_mark, read_file
+   use wavycon_file_bytes, only: byte_order_mark, make_one_byte, read_file
    use wavycon_kinds, only: dp, ieee_is_finite, not_a_number
    use wavycon_number_line, only: gaps, is_missing, read_line
    use wavycon_plain_text, only: decimal_digits, escaped, integer_text, lower_case
@@ -57,6 +57,7 @@ contains
 
       call read_file(path, most_bytes, content, error)
       if (allocated(error)) return
+      call make_one_byte(content)
       table%path = path
       if (index(content(:min(len(content), len(byte_order_mark))), byte_order_mark) == 1) &
          content(:len(byte_order_mark)) = ' '
@@ -105,7 +106,7 @@ contains
          if (used /= columns .and. .not. (used == columns - 1 .and. ends_open)) then
             call trouble_in_line('this row has '//integer_text(used)//' numbers, the first has '// &
                                  integer_text(columns)//': all must have the same number (write nan for one that '// &
-                                 'is missing)')
+                                 'is missing, and # before lines that are no heights)')
             return
          end if
          rows = rows + 1

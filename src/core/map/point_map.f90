@@ -99,8 +99,8 @@ contains
       if (allocated(error)) return
       if (int(least_percentage, int64)*product(int(points, int64)) > 100*int(size(table%line), int64)) then
          call fatal_error(error, exit_bad_input, escaped(table%path)//': the grid of these points has '//grid_words// &
-                          ' and only '//integer_text(size(table%line))//' of them are there: interpolate the '// &
-                          'heights to a regular grid')
+                          ' and only '//integer_text(size(table%line))//' of them are there: each line must '// &
+                          'have x, y and z in this order; otherwise interpolate the heights to a regular grid')
          return
       end if
       call check_room(table%path, points, error)
@@ -113,7 +113,7 @@ contains
             node = 1 + nint(steps)
             if (any(abs(steps - nint(steps)) > tolerance)) then
                call refuse(' is out of step: the points must form a regular grid, of '//grid_words// &
-                           ' as it seems. Interpolate the heights to one')
+                           ' as it seems, and each line x, y and z in this order. Otherwise interpolate the heights to one')
                return
             else if (is_there(node(1), node(2))) then
                call refuse(' is a point of a line before')

@@ -70,6 +70,11 @@ def type_of(key):
     return one if key.get("most_values", 1) == 1 else f"{one} | Iterable[{one}]"
 
 
+def python_name(key):
+    """The name of a key; a word of Python, such as yield, has an underscore at its end."""
+    return key["name"] + "_"*iskeyword(key["name"])
+
+
 def describe(key):
     """A key in a line, for docstrings."""
     unit = f" [{key['unit']}]" if key["unit"] else ""
@@ -77,7 +82,7 @@ def describe(key):
     default = {".true.": "True", ".false.": "False"}.get(key["default"], key["default"])
     default = f" Default: {default}." if default else ""
     meaning = re.sub("^Of [a-z0-9_, ]*: ", "", key["meaning"])
-    return f"{key['name']}{unit}: {meaning}{choices}{default}"
+    return f"{python_name(key)}{unit}: {meaning}{choices}{default}"
 
 
 def docstring(lines, indent):
@@ -100,6 +105,8 @@ def parameter(key):
 
 def make_surface(kind, keys):
     own = [key for key in keys if kind in key.get("read_by", ())]
+    if kind == "ball":   # whose cell is as large as its contacts need
+        own = [{**key, "default": ""} if "length" in key["name"] else key for key in own]
     meaning = re.search(rf"'{kind}': (.*?)\.(?= '|$)", next(key for key in keys if key["name"] == "kind")["meaning"])[1]
     name = FUNCTIONS.get(kind, kind)
     begin = f"def {name}(*, "
@@ -110,14 +117,10 @@ def make_surface(kind, keys):
 
 def make_keys(name, meaning, keys, bases="TypedDict", groups=()):
     """A type of dictionaries with some of these keys."""
-    fields = [f"    {key['name']}: {type_of(key)} | None" for key in keys if not iskeyword(key["name"])]
+    fields = [f"    {python_name(key)}: {type_of(key)} | None" for key in keys]
     fields += [f"    {group}: {group.capitalize()}" for group in groups]
-    # Words of Python cannot be names in a class.
-    words = ", ".join(f"{key['name']!r}: {type_of(key)} | None" for key in keys if iskeyword(key["name"]))
-    begin = f'_{name} = TypedDict("_{name}", {{{words}}}, total=False)\n\n\n' if words else ""
     doc = docstring([meaning, *map(describe, keys)], "    ")
-    begin += f"class {name}({f'_{name}' if words else bases}, total=False):\n"
-    return begin + doc + "\n" + "\n".join(fields) + "\n\n\n"
+    return f"class {name}({bases}, total=False):\n{doc}\n" + "\n".join(fields) + "\n\n\n"
 
 
 def make_columns(columns, meanings):

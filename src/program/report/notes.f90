@@ -538,7 +538,8 @@ contains
          end do
          if (unknown > 0) call logger%note('the errors of '//integer_text(unknown)//of_loads//' are unknown: '// &
             'a grid has error estimates from 64 points a side on, if each wave of the surface has two points '// &
-            'or more; shorter waves are left out. Give more grid_points, or an accuracy')
+            'or more, and a map has waves as short as two of its own steps; shorter waves are left out. Give more '// &
+            'grid_points, or an accuracy')
          if (all(coarse == 0)) return
          do i = 1, size(values)
             values(i) = trim(values(i))//' at '//integer_text(coarse(i))

@@ -1,6 +1,7 @@
 """Decks in memory. Groups and keys are those of the library."""
 from __future__ import annotations
 
+import keyword
 import os
 import tempfile
 from collections.abc import Iterable, Mapping
@@ -60,7 +61,7 @@ def sort_keys(given: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     """Keys by groups: a mapping under the name of a group has keys of it; others belong to the group that has them."""
     groups: dict[str, dict[str, Any]] = {}
     others = {group: known for group, known in keys().items() if group != "surface"}
-    for name, value in given.items():
+    for name, value in ((bare(name), value) for name, value in given.items()):
         if name in others:
             groups.setdefault(name, {}).update(dictionary(f"{name} is a group: it", value))
             continue
@@ -76,6 +77,11 @@ def sort_keys(given: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
         if value is not None:
             groups.setdefault(owners[0], {})[name] = value
     return groups
+
+
+def bare(name: str) -> str:
+    """The name of a key that is a word of Python, without the underscore behind it: yield of yield_."""
+    return name[:-1] if keyword.iskeyword(name[:-1]) else name
 
 
 def dictionary(name: str, given: Any) -> Mapping[str, Any]:
@@ -130,4 +136,5 @@ def value_text(key: str, value: object, in_list: bool = False) -> str:
         return repr(int(value) if isinstance(value, Integral) else float(value))
     if isinstance(value, Iterable) and not isinstance(value, (bytes, Mapping)) and not in_list:
         return ", ".join(value_text(key, one, in_list=True) for one in value)
-    raise ValueError(f"{key} must be a number, a text, a truth value or a list of these, got {value!r}")
+    raise ValueError(f"{key} must be a number, a text, a truth value or a list of these, got {value!r}"
+                     + " in a list"*in_list)

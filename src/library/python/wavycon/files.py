@@ -16,7 +16,7 @@ import numpy as np
 
 from . import names
 from .deck import deck_text, heights, scene_of
-from .library import Array, Note, need, reals, tell
+from .library import Array, Note, need, number, reals, tell
 from .surfaces import SIDES, Surface, check_names, unit_name
 
 # Of the files that are written, by the ends of their names.
@@ -29,11 +29,8 @@ DECIMAL_COMMAS = re.compile(rb"(?m)^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+"
 # The units of length that are converted, by powers of 10 m.
 LENGTHS = {"Gm": 9, "Mm": 6, "km": 3, "m": 0, "cm": -2, "mm": -3, "um": -6, "nm": -9, "Å": -10, "A": -10, "pm": -12,
            "fm": -15}
-# A number, or a missing one, as SurfaceTopography and the program read it; inf is missing to the one, wrong to the
-# other.
-WORD = re.compile(rb"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan)", re.IGNORECASE)
-# The head of Gwyddion's texts, whose words are those of the user's language.
-GWYDDION_TEXT = re.compile(rb"(?:\xef\xbb\xbf)?(?:# ?[^:\n]+:.*\n){3}")
+REMEDY = "Gwyddion may open it and save it as .gsf"
+LARGEST = 1e90   # the largest height of the program; some formats have the largest double where heights are missing
 
 
 def read(file: str | os.PathLike[str], channel: str | int | None = None, *, length_unit: str | None = None,
@@ -44,12 +41,12 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
     degrees, volts and other units that are no lengths are refused. length_unit: to which the file's lengths are
     converted, or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend, fill_missing
     and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all.
-    missing_value is for texts. Files .gsf, grids of ESRI and numbers with a decimal comma, which the program reads, and
+    missing_value is in the unit of the heights that are returned. Files .gsf, grids of ESRI and numbers with a decimal comma, which the program reads, and
     .npy need no SurfaceTopography; arrays in .npy have the shape (y, x) or (x,), as in wavycon.heights. The program
     also reads other texts of numbers, as wavycon.file does.
     """
     check_names("read", keys_of_maps, [*names.Map.__annotations__, "length_unit", "channel"])
-    opened = open_file(file, channel, length_unit, keys_of_maps.get("missing_value") is not None)
+    opened = open_file(file, channel, length_unit)
     if not opened:
         if channel not in (None, 0):
             raise ValueError(f"there is no channel {channel!r}: such a file has one, which has no name")
@@ -60,10 +57,13 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
             # It sends files of instruments back to this package.
             if "wavycon-convert" not in str(error) or not (words := refusal(file)):
                 raise
-            raise ValueError(f"{file}: SurfaceTopography cannot read it: {words}") from None
+            raise ValueError(f"{file}: SurfaceTopography cannot read it: {words}; {REMEDY}") from None
         return surface
     x, z, sides, unit = opened
-    for key in *sides, "missing_value", "file_format", "file2":
+    z[np.isfinite(z) & (abs(z) > LARGEST)] = np.nan
+    if (missing := keys_of_maps.pop("missing_value", None)) is not None:
+        z[np.isin(z, [missing, float(np.float32(missing))])] = np.nan   # as the program has it
+    for key in *sides, "file_format", "file2":
         if keys_of_maps.get(key) is not None:
             why = f"the file has {sides[key]:g} {unit or ''}" if key in sides else "it is for wavycon.file"
             raise ValueError(f"{file}: leave out {key}: {why}".rstrip())
@@ -76,8 +76,8 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
         raise ValueError(f"{file}: {error}") from None
 
 
-def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str | None = None,
-              has_missing_value: bool = False) -> tuple[Array | None, Array, dict[str, float], str | None] | None:
+def open_file(file: str | os.PathLike[str], channel: str | int | None,
+              unit: str | None = None) -> tuple[Array | None, Array, dict[str, float], str | None] | None:
     """What a file holds, in a unit of length if one is given: the places of unequal steps (None: equal steps), the
     heights (y, x) or (x,), NaN where they are missing, the sides as keys, none where the file lacks them, and the unit
     (None: unknown). None for a file that the program reads, or tells best what is wrong with it. Errors: ValueError."""
@@ -87,8 +87,7 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
         raise FileNotFoundError(f"{file}: {'this is no file' if os.path.exists(file) else 'there is no such file'}")
     if not (start := first_bytes(file, 65536)):
         raise ValueError(f"{file}: the file is empty")
-    # Of texts the program knows which numbers have the value of missing ones.
-    if GSF_OR_ESRI.match(start) or DECIMAL_COMMAS.search(start) or (has_missing_value and b"\0" not in start):
+    if GSF_OR_ESRI.match(start) or DECIMAL_COMMAS.search(start):
         return None
     if start.startswith(b"\x93NUMPY"):
         # SurfaceTopography takes the first index of an array for x, the program for y.
@@ -110,9 +109,9 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
                 raise NoHeights("it is NetCDF in the format of HDF5, whose order of axes is not told: "
                                 "wavycon.heights(xarray.open_dataarray(file)) reads it")
             info = choose(reader.channels, channel)
-            known, are_lines = info.physical_sizes is not None, kind == "asc"
-            if are_lines and GWYDDION_TEXT.match(start) and not (known and info.unit):
-                return None   # a head in another language than English, of which the reader knows some lines
+            known = info.physical_sizes is not None
+            if kind == "asc" and known and not info.unit:
+                return None   # a head of which the reader knows some lines, and the program perhaps all
             # Maps of one size, one below the other, have heads in words between them.
             are_blocks = len(points := [one.nb_grid_pts for one in reader.channels]) > 1 == len(set(points))
             topography = info.topography(**({} if known else {"physical_sizes": (1.0,)*info.dim}))
@@ -129,14 +128,11 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None, unit: str
         # Its readers raise whatever their formats bring about.
         if type(error).__name__ == "CannotDetectFileFormat":
             return None
-        words = f"SurfaceTopography cannot read it: {in_line(type(error), error)}"
+        words = f"SurfaceTopography cannot read it: {in_line(type(error), error)}; {REMEDY}"
         raise ValueError(f"{file}: {error if isinstance(error, NoHeights) else words}") from error
-    if kind in ("asc", "xyz") and not are_blocks and is_broken(file, z.size if kind == "xyz" else len(z)):
-        return None   # its readers leave out lines that are no rows, in silence, and take inf for missing
-    if kind == "xyz" and x is not None and not (np.diff(x) > 0).all():
-        return None   # which tells the line
-    if are_lines and not known and z.ndim == 2 and z.shape[1] == 3 and len(z) > 3:
-        return None   # lines of points x, y, z with missing ones
+    # The readers of texts leave out lines that are no rows, in silence, take inf for missing, coordinates for heights.
+    if kind in ("asc", "xyz") and not are_blocks and (x is not None or not agrees(file, z.size, known)):
+        return None
     return x, z, dict(zip(SIDES, sides)), unit or own or None
 
 
@@ -156,6 +152,7 @@ def refusal(file: str | os.PathLike[str]) -> str | None:
                 reader(os.fspath(file))
             except Exception as error:
                 return in_line(reader, error)
+            return "it finds no heights"
     return None
 
 
@@ -164,18 +161,14 @@ def first_bytes(file: str | os.PathLike[str], number: int = 32) -> bytes:
         return opened.read(number)
 
 
-def is_broken(file: str | os.PathLike[str], rows: int) -> bool:
-    """Whether the last lines of a text, so many, are not rows of as many numbers each, or lines above them have numbers
-    alone, or beside words as many as in a row."""
-    text = Path(file).read_bytes()
-    if text.startswith((b"\xff\xfe", b"\xfe\xff")):
-        text = text.decode("utf-16", "replace").encode()
-    lines = [words for line in text.translate(bytes.maketrans(b",;", b"  ")).splitlines()
-             if (words := line.split()) and not words[0].startswith(b"#")]
-    numbers = [sum(map(bool, map(WORD.fullmatch, words))) for words in lines]
-    widths, head = {*numbers[-rows:], *map(len, lines[-rows:])}, lines[:-rows]
-    return len(lines) < rows or len(widths) > 1 or any(
-        n and len(words) in {n, *widths} for n, words in zip(numbers, head))
+def agrees(file: str | os.PathLike[str], points: int, has_sides: bool) -> bool:
+    """Whether the program reads so many heights from a text, and sides if it has them."""
+    surface = Surface({"kind": "file", "file": os.path.abspath(file), "fill_missing": "harmonic"})
+    try:
+        scene = scene_of(surface, {}, keep_fields=False)
+    except ValueError:
+        return False
+    return (number(scene, "points_x")*number(scene, "points_y"), number(scene, "has_sides")) == (points, has_sides)
 
 
 class NoHeights(Exception):

@@ -92,7 +92,7 @@ def tell(notes: list[str]) -> list[str]:
     """Warns of notes, at the line that called this package; returns them."""
     frame: Any = sys._getframe()
     level = 1
-    while frame.f_globals.get("__package__") == __package__ and frame.f_back:
+    while frame.f_globals.get("__name__", "").partition(".")[0] in (__package__, "functools") and frame.f_back:
         frame, level = frame.f_back, level + 1
     for note in notes:
         warnings.warn(note, Note, level)

@@ -49,8 +49,8 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
 
     Returns a frame of pandas: a row for each run and load, with the name or number of the surface if there are several,
     the values, the columns of the summary, whose units are in frame.attrs["units"], and message, what the program
-    notes of the run. A run that failed is a row with the status 'failed' and the message of the program. An unknown
-    key is a ValueError before anything starts.
+    notes of the run. A run that failed is a row with the status 'failed' and the message of the program; if all fail it
+    is a ValueError. An unknown key is one before anything starts.
     """
     pandas = need("pandas", "frames")
     if jobs is not None and not (isinstance(jobs, Integral) and jobs >= 1):
@@ -103,6 +103,8 @@ def sweep(what: str | os.PathLike[str] | Surface | Sequence[Surface] | Mapping[A
     if not frames:
         raise ValueError("there are no values, so there is no run")
     frame = pandas.concat(frames, ignore_index=True)[max((frame.columns for frame in frames), key=len)]
+    if (frame["status"] == "failed").all():
+        raise ValueError(f"all runs failed; the first one: {frame['message'][0]}")
     frame.attrs["units"] = {column: units[column] for column in frame if column in units}
     return frame
 

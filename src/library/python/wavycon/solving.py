@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import library
-from .deck import NEAR, dictionary, groups_of, scene_of, value_text
+from .deck import NEAR, bare, dictionary, groups_of, scene_of, value_text
 from .library import Handle, address, call, keys, one_number, reals
 from .names import Load, OneLoad, Options, Settings, Unpack
 from .progress import Watch
@@ -131,7 +131,7 @@ class Problem:
             raise ValueError(f"give the loads by one of {', '.join(known)}"
                              + f", and {settings} to wavycon.problem"*bool(settings))
         given: Any
-        (name, given), = load.items()
+        ((name, given),) = ((bare(name), given) for name, given in load.items())
         if isinstance(given, str):
             name, given = f"{name}={given}", 0.0
         values = np.atleast_1d(list(given) if isinstance(given, (Iterator, Set)) else given)
