@@ -32,8 +32,8 @@ contains
                                         escaped(path)//': cannot be read: '//system_words(message))
    end subroutine read_file
 
-   !> Leaves out the bytes that a text of two bytes a character (UTF-16, with its mark at the beginning) has beside those
-   !> of ASCII and Latin-1. Other characters become '?'. Other texts do not change.
+   !> Leaves out the bytes that a text of two bytes a character (UTF-16, with its mark at the beginning) has beside
+   !> those of ASCII and Latin-1. Other characters become '?'. Other texts do not change.
    pure subroutine make_one_byte(text)
       character(:), allocatable, intent(inout) :: text
 

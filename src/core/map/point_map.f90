@@ -112,8 +112,8 @@ contains
             steps = (point(:2) - axis%first)/merge(axis%step, 1.0_dp, points > 1)
             node = 1 + nint(steps)
             if (any(abs(steps - nint(steps)) > tolerance)) then
-               call refuse(' is out of step: the points must form a regular grid, of '//grid_words// &
-                           ' as it seems, and each line x, y and z in this order. Otherwise interpolate the heights to one')
+               call refuse(' is out of step: the points must form a regular grid, of '//grid_words//' as it seems, '// &
+                           'and each line x, y and z in this order. Otherwise interpolate the heights to one')
                return
             else if (is_there(node(1), node(2))) then
                call refuse(' is a point of a line before')

@@ -103,9 +103,9 @@ contains
       nearest = minloc(distance, dim=1)
    end function nearest_slip
 
-   !> The number of the known name of which each word of a name is a part, or a slip of a word; 0 if there is none. Best is
-   !> one that has the last word as a word, then one that ends with it, then the shortest. A word of one or two letters is
-   !> in too many names: it must be one of their words.
+   !> The number of the known name of which each word of a name is a part, or a slip of a word; 0 if there is none.
+   !> Best is one that has the last word as a word, then one that ends with it, then the shortest. A word of one or two
+   !> letters is in too many names: it must be one of their words.
    pure integer function name_with(name, known) result(best)
       character(*), intent(in) :: name, known(:)   !! as for near_names
 

@@ -37,13 +37,14 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
          **keys_of_maps: names.Unpack[names.Map]) -> Surface:
     """A surface from a file of any format that SurfaceTopography opens, with the sides and the unit of the file.
 
-    channel: name, or number in the file, from 0, of one of several; without it the first one of heights. Channels in
-    degrees, volts and other units that are no lengths are refused. length_unit: to which the file's lengths are
-    converted, or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend, fill_missing
-    and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file) has them all.
-    missing_value is in the unit of the heights that are returned. Files .gsf, grids of ESRI and numbers with a decimal comma, which the program reads, and
-    .npy need no SurfaceTopography; arrays in .npy have the shape (y, x) or (x,), as in wavycon.heights. The program
-    also reads other texts of numbers, as wavycon.file does.
+    channel: name, or number in the file, from 0, of one of several; without it the first one of heights. Channels
+    in degrees, volts and other units that are no lengths are refused. length_unit: to which the file's lengths are
+    converted, or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend,
+    fill_missing and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file)
+    has them all. missing_value is in the unit of the heights that are returned. Files .gsf, grids of ESRI and
+    numbers with a decimal comma, which the program reads, and .npy need no SurfaceTopography; arrays in .npy have
+    the shape (y, x) or (x,), as in wavycon.heights. The program also reads other texts of numbers, as wavycon.file
+    does.
     """
     check_names("read", keys_of_maps, [*names.Map.__annotations__, "length_unit", "channel"])
     opened = open_file(file, channel, length_unit)
