@@ -142,13 +142,14 @@ contains
 
       if (scene%has_units .and. index(map%assumed_sides, 'length_x') == 1) call logger%note( &
          'the side length_x = 1 ['//scene%length_unit//'] is assumed: neither the deck nor the file gives it')
-      associate (sides => [scene%surface_values%length_x%number, scene%surface_values%length_y%number])
+      associate (sides => [scene%surface_values%length_x%number, scene%surface_values%length_y%number], &
+                 points => max(map%points, map%changes%cropped_from))   ! to which the deck's sides belong
          if (all(map%points > 1) .and. scene%surface_values%length_x%is_given .and. &
              scene%surface_values%length_y%is_given) then
-            if (are_near(sides(1)*map%points(1), sides(2)*map%points(2)) .and. &
-                .not. are_near(sides(1)*map%points(2), sides(2)*map%points(1))) call logger%note( &
-               'the points are '//short_number(sides(1)/map%points(1))//' apart along x and '// &
-               short_number(sides(2)/map%points(2))//' along y. With length_x and length_y exchanged both would '// &
+            if (are_near(sides(1)*points(1), sides(2)*points(2)) .and. &
+                .not. are_near(sides(1)*points(2), sides(2)*points(1))) call logger%note( &
+               'the points are '//short_number(sides(1)/points(1))//' apart along x and '// &
+               short_number(sides(2)/points(2))//' along y. With length_x and length_y exchanged both would '// &
                'be alike')
          end if
       end associate
