@@ -5,7 +5,6 @@ import argparse
 import contextlib
 import logging
 import os
-import re
 import sys
 import warnings
 from collections.abc import Iterator, Sequence
@@ -20,12 +19,7 @@ from .library import Array, Note, need, number, reals, tell
 from .surfaces import SIDES, Surface, check_names, unit_name
 
 # Of the files that are written, by the ends of their names.
-BEGINNINGS = {".npy": b"\x93NUMPY", ".gsf": b"Gwyddion"}
-# What the program reads, and SurfaceTopography not or otherwise than it is meant: Gwyddion's simple field, the grids of
-# ESRI, by their steps and order of rows, and a line of whole numbers and such with a decimal comma, without points.
-GSF_OR_ESRI = re.compile(rb"Gwyddion Simple Field 1\.|\s*(?i:ncols)\s")
-NUMBER = rb"[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?"
-DECIMAL_COMMAS = re.compile(rb"(?m)^(?=.*\d,\d)[ \t]*" + NUMBER + rb"(?:[ \t;]+" + NUMBER + rb")*[ \t;]*\r?\n")
+BEGINNINGS = {".npy": b"\x93NUMPY", ".gsf": b"Gwyddion Simple Field 1."}
 # The units of length that are converted, by powers of 10 m.
 LENGTHS = {"Gm": 9, "Mm": 6, "km": 3, "m": 0, "cm": -2, "mm": -3, "um": -6, "nm": -9, "Å": -10, "A": -10, "pm": -12,
            "fm": -15}
@@ -41,10 +35,9 @@ def read(file: str | os.PathLike[str], channel: str | int | None = None, *, leng
     in degrees, volts and other units that are no lengths are refused. length_unit: to which the file's lengths are
     converted, or, if it names none, what theirs is called. keys_of_maps: those of a map, such as detrend,
     fill_missing and edges, and length_x, length_y [length] if the file does not have the sides; help(wavycon.file)
-    has them all. missing_value is in the unit of the heights that are returned. Files .gsf, grids of ESRI and
-    numbers with a decimal comma, which the program reads, and .npy need no SurfaceTopography; arrays in .npy have
-    the shape (y, x) or (x,), as in wavycon.heights. The program also reads other texts of numbers, as wavycon.file
-    does.
+    has them all. missing_value is in the unit of the heights that are returned. Files .gsf and
+    .npy need no SurfaceTopography; arrays in .npy have the shape (y, x) or (x,), as in wavycon.heights. Texts that
+    it reads otherwise than the program, or without it all, are read as by wavycon.file.
     """
     check_names("read", keys_of_maps, [*names.Map.__annotations__, "length_unit", "channel"])
     opened = open_file(file, channel, length_unit)
@@ -88,9 +81,9 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None,
         raise FileNotFoundError(f"{file}: {'this is no file' if os.path.exists(file) else 'there is no such file'}")
     if not (start := first_bytes(file, 65536)):
         raise ValueError(f"{file}: the file is empty")
-    if GSF_OR_ESRI.match(start) or DECIMAL_COMMAS.search(start):
+    if start.startswith(BEGINNINGS[".gsf"]):
         return None
-    if start.startswith(b"\x93NUMPY"):
+    if start.startswith(BEGINNINGS[".npy"]):
         # SurfaceTopography takes the first index of an array for x, the program for y.
         try:
             return None, reals(np.load(file)), {}, unit
@@ -98,8 +91,10 @@ def open_file(file: str | os.PathLike[str], channel: str | int | None,
             raise ValueError(f"{file}: {error}") from None
     try:
         opened = need("SurfaceTopography", "files").open_topography
-    except ImportError as error:
-        raise ImportError(f"{error}; without it wavycon.file reads texts of numbers") from None
+    except ImportError:
+        if b"\0" in start:
+            raise
+        return None   # a text
     logging.getLogger("igor2").setLevel(logging.CRITICAL)   # with its errors it logs all bytes of the file
     try:
         with opened(os.fspath(file)) as reader:
