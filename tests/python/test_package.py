@@ -843,6 +843,8 @@ except ImportError as error: print(error)"""
                 self.refuse("pbar_over_pstar", problem.solve, pbar_over_pstar=bad)
             for bad in loads, iter(loads), set(loads):
                 self.refuse("find needs one value", problem.find, mean_gap=bad)
+            found = problem.find(pbar_over_pstar=numpy.array([0.1]))   # as root of scipy gives its variable
+            self.assertAlmostEqual(0.1, found.pbar_over_pstar)
             self.refuse("give the loads by one of pbar", problem.solve, sweep_from=0.1)
             self.refuse(", and accuracy to wavycon.problem", problem.find, mean_gap=0.5, accuracy=1e-3)
             for copied in pickle.dumps, copy.deepcopy:

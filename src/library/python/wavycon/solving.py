@@ -149,7 +149,7 @@ class Problem:
         table "percolation" has the error of the load. solve of the same value gives Results, which can be saved.
         progress: as of solve."""
         values: Any = load.values()
-        if any(np.ndim(value) or isinstance(value, (Iterator, Set)) for value in values):
+        if any(np.size(value) != 1 or isinstance(value, (Iterator, Set)) for value in values):
             raise ValueError("find needs one value, not a list; solve takes lists")
         return self.solve(progress=progress, **load)[0]
 
