@@ -10,7 +10,7 @@ module wavycon_gwyddion_map
    use wavycon_kinds, only: dp, int64, largest_number, smallest_number
    use wavycon_length_unit, only: find_factor
    use wavycon_measured_map, only: laid_along_x, measured_map
-   use wavycon_plain_text, only: excerpt, integer_text, lower_case, newline, short_number
+   use wavycon_plain_text, only: excerpt, integer_text, lower_case, newline, replaced, short_number
    use wavycon_units, only: angstrom, micro_sign
    implicit none (type, external)
    private
@@ -187,17 +187,13 @@ contains
       real(dp), intent(out) :: length                   !! 0 if the entry is not a length
       character(:), allocatable, intent(out) :: unit    !! empty if the entry is not a length or has no unit
 
-      character(:), allocatable :: number
-      integer :: comma, last
+      integer :: last
 
       length = 0.0_dp
       unit = ''
       last = verify(entry, '+-.,0123456789eE') - 1
       if (last < 1) return
-      number = entry(:last)
-      comma = index(number, ',')
-      if (comma > 0) number(comma:comma) = '.'
-      length = positive_number(number)
+      length = positive_number(replaced(entry(:last), ',', '.'))
       if (length > 0.0_dp) unit = trim(adjustl(entry(last + 1:)))
    end subroutine read_length
 
