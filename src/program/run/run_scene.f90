@@ -234,8 +234,7 @@ contains
       call read_checkpoints(results, known, status, name, error)
       call results%sharing%share_error(error)
       if (allocated(error)) return
-      ranks_that_know = 0
-      where (known) ranks_that_know = 1
+      ranks_that_know = merge(1_int64, 0_int64, known)
       call results%sharing%add(ranks_that_know)
       ! A load on a distributed grid is known if all ranks have their columns. At the interruption some may have had
       ! them and others not.
