@@ -11,7 +11,8 @@ program stress_scenes
    use wavycon_error, only: error_type
    use wavycon_grid_source, only: grid_source
    use wavycon_kinds, only: dp
-   use wavycon_read_deck, only: read_deck
+   use wavycon_deck_text, only: deck_text_type, read_deck_text
+   use wavycon_read_deck, only: parse_deck
    use wavycon_methods, only: start_solver
    use wavycon_quantities, only: mean_gap
    use wavycon_scene, only: scene_type
@@ -19,6 +20,7 @@ program stress_scenes
    implicit none (type, external)
 
    type(contact_solution) :: solution
+   type(deck_text_type) :: text
    type(error_type), allocatable :: error
    type(grid_kkt) :: of_grid
    type(scene_type) :: scene
@@ -28,7 +30,9 @@ program stress_scenes
    integer :: i
 
    if (all(command_argument_count() /= [1, 2])) error stop 'usage: stress_scenes DECK [HARDNESS]'
-   call read_deck(word(1), scene, error)
+   call read_deck_text(word(1), text, error)
+   call stop_on(error)
+   call parse_deck(text, scene, error)
    call stop_on(error)
    call start_solver(scene%surface, scene%method, .true., solver)
    do i = 1, size(scene%target)

@@ -71,9 +71,9 @@ contains
    end subroutine check
 
    !> Reads the heights of a map, which must fill the file from `start` to its end. Missing heights are NaN. With
-   !> in_slabs each process reads only its own columns of a large map. Errors: exit_bad_input for a map that is too
-   !> small or too large, a file of another length, and infinite heights; exit_file_trouble if the file cannot be read
-   !> or there is not enough memory.
+   !> in_slabs each process reads only its own columns of a large map, unless the file has it by columns. Errors:
+   !> exit_bad_input for a map that is too small or too large, and a file of another length; exit_file_trouble if the
+   !> file cannot be read or there is not enough memory.
    subroutine read_heights(self, start, points, by_columns, map, error)
       class(binary_file), intent(in) :: self   !! open
       integer(int64), intent(in) :: start      !! number of bytes before the first height
@@ -83,10 +83,8 @@ contains
       type(measured_map), intent(inout) :: map   !! on exit with its heights
       type(error_type), allocatable, intent(out) :: error
 
-      real(dp), allocatable :: line(:)   ! heights that follow each other: of one x or of one y
-      integer(int64) :: before           ! number of heights in the file before the line
       integer(int64) :: expected         ! number of bytes that the file must have
-      integer :: infinite, k, lines, point(2)
+      integer :: k, length, lines        ! length of a line, heights that follow each other; number of lines to read
       type(grid_slab) :: slab
 
       call check_map_size(self%path, points, error)
@@ -95,34 +93,19 @@ contains
          call self%refuse('its head announces '//integer_text(points(1))//' x '//integer_text(points(2))// &
                           ' heights, which make a file of '//integer_text(expected)//' bytes, but it has '// &
                           integer_text(self%bytes)//': was it copied in full, as binary data?', error)
-      call slab%start(points, whole=.not. self%in_slabs)
+      call slab%start(points, whole=by_columns .or. .not. self%in_slabs)
       if (.not. allocated(error)) call check_room(self%path, points, error, slab)
-      lines = 0
       if (.not. allocated(error)) then
-         allocate (map%height(points(1), slab%columns()), line(merge(slab%columns(), points(1), by_columns)))
-         lines = size(map%height)/max(size(line), 1)
+         length = merge(points(2), points(1), by_columns)
+         lines = merge(points(1), slab%columns(), by_columns)
+         allocate (map%height(length, lines))
+         do k = 1, lines
+            call read_numbers(self, start + self%number_bytes*(slab%first - 2 + k)*int(length, int64), &
+                              map%height(:, k), error)
+            if (allocated(error)) exit
+         end do
+         if (by_columns) map%height = transpose(map%height)
       end if
-      do k = 1, lines
-         if (by_columns) then
-            point = [k, slab%first]
-            before = (point(1) - 1)*int(points(2), int64) + point(2) - 1
-         else
-            point = [1, slab%first - 1 + k]
-            before = (point(2) - 1)*int(points(1), int64)
-         end if
-         call read_numbers(self, start + self%number_bytes*before, line, error)
-         if (allocated(error)) exit
-         infinite = findloc(abs(line) > huge(line), .true., dim=1)
-         if (infinite > 0) then
-            if (by_columns) point(2) = point(2) + infinite - 1
-            if (.not. by_columns) point(1) = infinite
-            call self%refuse('the height in row '//integer_text(point(2))//', column '//integer_text(point(1))// &
-                             ' is infinite: make it nan if it is missing', error)
-            exit
-         end if
-         if (by_columns) map%height(k, :) = line
-         if (.not. by_columns) map%height(:, k) = line
-      end do
       call slab%share_error(error)
       if (slab%is_distributed .and. .not. allocated(error)) map%slab = slab
    end subroutine read_heights

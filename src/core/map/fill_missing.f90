@@ -1,7 +1,7 @@
 !> Fills the holes of a height map by the solution of Laplace's equation: (M3) of README.md in this directory.
 !>
 !> The unknowns are the missing heights alone. The equations are solved by conjugate gradients with a preconditioner,
-!> (M3a), which start from straight lines along x, (M4).
+!> (M3a).
 module wavycon_fill_missing
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp, int64
@@ -54,38 +54,11 @@ contains
       unit = maxval(abs(filled))
       if (unit > 0.0_dp) then
          filled = filled/unit
-         call start_on_lines(map%missing, filled)
          call solve(map%missing, (minval(step)/step([1, 1, 2, 2]))**2, periodic, filled)
       end if
       where (map%missing) map%height = datum + unit*filled
       deallocate (map%missing)
    end subroutine fill_holes
-
-   !> Sets the missing heights to start values: on straight lines along x between the heights that are there, (M4).
-   !> Before the first and after the last of these the line is level. A line along x without any height gets the values
-   !> of the line before; the first such lines keep zeros.
-   pure subroutine start_on_lines(missing, height)
-      logical, intent(in) :: missing(:, :)      !! shape (M, N)
-      real(dp), intent(inout) :: height(:, :)   !! on entry zero where a height is missing
-
-      real(dp) :: level
-      integer :: i, j, k, last   ! last: number along x of the last height that is there, 0 if there is none yet
-
-      do j = 1, size(height, 2)
-         last = 0
-         do i = 1, size(height, 1)
-            if (missing(i, j)) cycle
-            level = height(i, j)
-            if (last > 0) level = height(last, j)
-            do k = last + 1, i - 1
-               height(k, j) = level + (height(i, j) - level)*(k - last)/(i - last)
-            end do
-            last = i
-         end do
-         if (last > 0) height(last + 1:, j) = height(last, j)
-         if (last == 0 .and. j > 1) height(:, j) = height(:, j - 1)
-      end do
-   end subroutine start_on_lines
 
    !> Solves (M3) for the missing heights by conjugate gradients with the preconditioner (M3a), until the residual is
    !> rounding or stops falling.

@@ -10,7 +10,7 @@ module wavycon_gwyddion_map
    use wavycon_kinds, only: dp, int64, largest_number, smallest_number
    use wavycon_length_unit, only: find_factor
    use wavycon_measured_map, only: laid_along_x, measured_map
-   use wavycon_plain_text, only: excerpt, integer_text, lower_case, newline, short_number
+   use wavycon_plain_text, only: excerpt, integer_text, lower_case, newline, replaced, short_number
    use wavycon_units, only: angstrom, micro_sign
    implicit none (type, external)
    private
@@ -31,7 +31,7 @@ contains
    !> Reads a map in the .gsf format. The first row of the file is the first row of the map, as in the other formats. So
    !> y rises from the top of Gwyddion's picture downwards, as in Gwyddion. Errors: exit_bad_input, exit_file_trouble.
    subroutine read_gsf_map(file, map, error)
-      class(binary_file), intent(inout) :: file
+      class(binary_file), intent(in) :: file
       type(measured_map), intent(inout) :: map
       type(error_type), allocatable, intent(out) :: error
 
@@ -70,8 +70,6 @@ contains
          map%is_usual_side = map%is_usual_side(2:1:-1)
          map%step = map%step(2:1:-1)
       end if
-      file%number_bytes = 4
-      file%big_end_first = .false.
       call file%read_heights(int(last + alignment - modulo(last, alignment), int64), laid_along_x(points), .false., &
                              map, error)
    end subroutine read_gsf_map
@@ -187,17 +185,13 @@ contains
       real(dp), intent(out) :: length                   !! 0 if the entry is not a length
       character(:), allocatable, intent(out) :: unit    !! empty if the entry is not a length or has no unit
 
-      character(:), allocatable :: number
-      integer :: comma, last
+      integer :: last
 
       length = 0.0_dp
       unit = ''
       last = verify(entry, '+-.,0123456789eE') - 1
       if (last < 1) return
-      number = entry(:last)
-      comma = index(number, ',')
-      if (comma > 0) number(comma:comma) = '.'
-      length = positive_number(number)
+      length = positive_number(replaced(entry(:last), ',', '.'))
       if (length > 0.0_dp) unit = trim(adjustl(entry(last + 1:)))
    end subroutine read_length
 
@@ -241,10 +235,8 @@ contains
       end do
       first = index(entry, char(181)//'m')
       if (first > 0 .and. index(entry, char(194)) == 0) entry = entry(:first - 1)//micro_sign//entry(first + 2:)
-      first = len(entry)
-      if (first > 0) then
-         if (entry(first:) == char(197)) entry = entry(:first - 1)//angstrom
-      end if
+      first = index(entry, char(197), back=.true.)
+      if (first > 0 .and. first == len(entry)) entry = entry(:first - 1)//angstrom
 
    contains
 

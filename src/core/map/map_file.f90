@@ -15,7 +15,7 @@ module wavycon_map_file
    use wavycon_measured_map, only: check_map_size, check_room, laid_along_x, measured_map
    use wavycon_npy_map, only: npy_magic, read_npy_map
    use wavycon_number_table, only: number_table, read_number_table
-   use wavycon_plain_text, only: escaped, lower_case, newline
+   use wavycon_plain_text, only: escaped, integer_text, lower_case, newline
    use wavycon_point_map, only: check_matrix, resample_profile, take_points, take_profile
    use wavycon_ranks, only: share_error
    use wavycon_system, only: note_input, path_device, path_kind
@@ -82,8 +82,8 @@ contains
          end select
       end if
       call file%close()
-      if (.not. allocated(error)) call mark_missing(map, missing_value)
-      if (allocated(map%no_data) .and. .not. allocated(error)) call mark_missing(map, map%no_data)
+      if (.not. allocated(error)) call mark_missing(file, map, error, missing_value)
+      if (allocated(map%no_data) .and. .not. allocated(error)) call mark_missing(file, map, error, map%no_data)
       call ieee_set_status(floating_point)
       if (allocated(map%x) .and. .not. allocated(error)) call resample_profile(path, map, error)
       call share_error(error)
@@ -147,14 +147,18 @@ contains
    end subroutine read_text
 
    !> Marks the missing heights, and sets them to 0: those that are NaN, and those that equal a given value or this
-   !> value rounded to single precision.
-   subroutine mark_missing(map, missing_value)
+   !> value rounded to single precision. Errors: exit_bad_input for an infinite height, which texts cannot have.
+   subroutine mark_missing(file, map, error, missing_value)
+      type(binary_file), intent(in) :: file
       type(measured_map), intent(inout) :: map
+      type(error_type), allocatable, intent(out) :: error
       real(dp), intent(in), optional :: missing_value   !! a height that stands for a missing one
 
       real(dp) :: rounded   ! to single precision
       integer :: i, j
+      type(grid_slab) :: slab
 
+      slab = map%columns()
       if (present(missing_value)) then
          rounded = missing_value
          if (abs(missing_value) < huge(1.0_sp)) rounded = real(real(missing_value, sp), dp)
@@ -162,6 +166,11 @@ contains
       do j = 1, size(map%height, 2)
          do i = 1, size(map%height, 1)
             if (.not. ieee_is_nan(map%height(i, j))) then
+               if (abs(map%height(i, j)) > huge(rounded)) then
+                  call file%refuse('the height in row '//integer_text(slab%first - 1 + j)//', column '// &
+                                   integer_text(i)//' is infinite: make it nan if it is missing', error)
+                  return
+               end if
                if (.not. present(missing_value)) cycle
                if (abs(map%height(i, j) - missing_value) > 0.0_dp .and. abs(map%height(i, j) - rounded) > 0.0_dp) cycle
                map%has_missing_value = .true.

@@ -107,15 +107,10 @@ contains
       across = 0.0_dp
       column_sums = 0.0_dp
       associate (m => slab%points(1), n => slab%points(2))
-         if (repeats) then
-            first = 1
-            last = m
-            numbers = real(m, dp)*n
-         else
-            first = 2
-            last = m - 1
-            numbers = [real(m - 1, dp)*n, real(m, dp)*(n - 1), real(m - 2, dp)*max(n - 2, 1)]
-         end if
+         first = merge(1, 2, repeats)
+         last = merge(m, m - 1, repeats)
+         numbers = real(m, dp)*n
+         if (.not. repeats) numbers = [real(m - 1, dp)*n, real(m, dp)*(n - 1), real(m - 2, dp)*max(n - 2, 1)]
          do j = 1, size(height, 2)
             here = ahead
             to_last = to_next

@@ -81,7 +81,7 @@ contains
       changes%step = map%step(1)
       changes%uneven_steps = map%uneven_steps
       if (allocated(map%missing)) changes%filled = count(map%missing)
-      call check_holes(source, preparation, map, error)
+      call check_holes()
       if (allocated(error)) return
       if (preparation%despike) call find_spikes(map%height, map%missing, changes%spikes, replace=.true.)
       degree = findloc(trends, preparation%detrend, dim=1) - 1
@@ -104,6 +104,39 @@ contains
       if (preparation%detrend == 'none' .and. changes%filled == 0 .and. preparation%edges /= 'window') return
       extremes = slab%extremes(map%height)
       if (sum(extremes) <= rounding*largest) map%height = 0.0_dp
+
+   contains
+
+      !> Checks the missing heights. Errors: exit_bad_input if some are missing and are not to be filled, and if all
+      !> are. `missing` may become allocated.
+      subroutine check_holes()
+         integer(int64) :: holes, points
+         integer :: first(2)
+         character(:), allocatable :: remedy, what
+         real(dp) :: unused
+
+         points = product(int(slab%points, int64))
+         holes = 0
+         if (allocated(map%missing)) holes = count(map%missing, kind=int64)
+         holes = slab%total_count(holes)
+         if (holes == 0) return
+         if (holes == points) then
+            call fatal_error(error, exit_bad_input, escaped(source)//': all heights are missing: some must be numbers')
+         else if (preparation%fill_missing == 'none') then
+            if (.not. allocated(map%missing)) allocate (map%missing(slab%points(1), slab%columns()), source=.false.)
+            call slab%find_largest(merge(1.0_dp, 0.0_dp, map%missing), unused, first)
+            remedy = "fill_missing = 'harmonic' fills them"
+            if (all(first == 1) .and. preparation%may_crop) remedy = remedy// &
+               ', crop_missing = .true. cuts off rows and columns at the border that have no heights'
+            what = ' heights are missing ('
+            if (map%uneven_steps(2) > 0.0_dp) what = ' heights, resampled to equal steps, are missing ('
+            call fatal_error(error, exit_bad_input, escaped(source)//': '//integer_text(holes)//' of '// &
+                             integer_text(points)//what// &
+                             percent(real(holes, dp)/points)//'), the first is number '// &
+                             integer_text(first(1))//' along x and '//integer_text(first(2))//' along y: '//remedy)
+         end if
+      end subroutine check_holes
+
    end subroutine prepare_map
 
    !> Cuts off the rows and columns at the border of a map in which all heights are missing.
@@ -126,41 +159,5 @@ contains
       map%missing = map%missing(first(1):last(1), first(2):last(2))
       if (.not. any(map%missing)) deallocate (map%missing)
    end subroutine crop
-
-   !> Checks the missing heights. Errors: exit_bad_input if some are missing and are not to be filled, and if all are.
-   subroutine check_holes(source, preparation, map, error)
-      character(*), intent(in) :: source                  !! name of the map, for the message
-      type(map_preparation), intent(in) :: preparation
-      type(measured_map), intent(inout) :: map            !! `missing` may become allocated
-      type(error_type), allocatable, intent(out) :: error
-
-      type(grid_slab) :: slab
-      integer(int64) :: holes, points
-      integer :: first(2)
-      character(:), allocatable :: remedy, what
-      real(dp) :: unused
-
-      slab = map%columns()
-      points = product(int(slab%points, int64))
-      holes = 0
-      if (allocated(map%missing)) holes = count(map%missing, kind=int64)
-      holes = slab%total_count(holes)
-      if (holes == 0) return
-      if (holes == points) then
-         call fatal_error(error, exit_bad_input, escaped(source)//': all heights are missing: some must be numbers')
-      else if (preparation%fill_missing == 'none') then
-         if (.not. allocated(map%missing)) allocate (map%missing(slab%points(1), slab%columns()), source=.false.)
-         call slab%find_largest(merge(1.0_dp, 0.0_dp, map%missing), unused, first)
-         remedy = "fill_missing = 'harmonic' fills them"
-         if (all(first == 1) .and. preparation%may_crop) remedy = remedy//', crop_missing = .true. cuts off rows '// &
-                                                                  'and columns at the border that have no heights'
-         what = ' heights are missing ('
-         if (map%uneven_steps(2) > 0.0_dp) what = ' heights, resampled to equal steps, are missing ('
-         call fatal_error(error, exit_bad_input, escaped(source)//': '//integer_text(holes)//' of '// &
-                          integer_text(points)//what// &
-                          percent(real(holes, dp)/points)//'), the first is number '// &
-                          integer_text(first(1))//' along x and '//integer_text(first(2))//' along y: '//remedy)
-      end if
-   end subroutine check_holes
 
 end module wavycon_prepare_map

@@ -7,8 +7,9 @@ module wavycon_collected_table
    use wavycon_file_bytes, only: read_file
    use wavycon_key_group, only: key_list
    use wavycon_key_table, only: integer_value, real_value
-   use wavycon_memory_table, only: column_list, column_type, longest_column, of_words
-   use wavycon_output_file, only: blank_mark, output_file, table_mark
+   use wavycon_kinds, only: dp
+   use wavycon_memory_table, only: column_list, column_type, longest_column, longest_word, of_words
+   use wavycon_output_file, only: output_file, table_mark
    use wavycon_plain_text, only: escaped, lower_case, newline, replaced
    use wavycon_scene, only: scene_type
    use wavycon_settings, only: setting_type
@@ -20,9 +21,6 @@ module wavycon_collected_table
    private
 
    public :: check_table_file, collected_deck, list_keys, write_collected_table
-
-   !> Width of the narrowest column, as in other tables.
-   integer, parameter :: narrowest = 25
 
    !> Most bytes of 'group_key': two names of at most name_length bytes of wavycon_key_table.
    integer, parameter :: longest_key_name = 49
@@ -48,7 +46,7 @@ module wavycon_collected_table
       logical :: is_written = .false.            !! whether this run has written the summary; .false.: it has failed
       integer :: loads = 0                       !! number of loads
       type(deck_key), allocatable :: keys(:)     !! all keys, in the same order for each deck
-      character(:), allocatable :: units, names  !! lines of the summary with the units and the names of the columns
+      type(column_type), allocatable :: columns(:)   !! columns of the summary
       character(:), allocatable :: rows          !! the summary's rows, each with a newline
    end type collected_deck
 
@@ -126,28 +124,18 @@ contains
                   listed%in_effect = listed%in_effect .and. s > 0
                   if (s > 0) listed%word = escaped(settings(s)%value)
                else if (listed%in_effect) then
-                  listed%word = word_of(lists(i), k)
+                  ! A list has commas between its numbers; if all are equal, one is shown.
+                  listed%word = lists(i)%words(k, ',')
+                  if (any(key%kind == [real_value, integer_value]) .and. &
+                      maxval(value%numbers) <= minval(value%numbers)) &
+                     listed%word = listed%word(:index(listed%word//',', ',') - 1)
+                  listed%word = escaped(listed%word)
+                  if (listed%word == '') listed%word = '-'
                end if
             end associate
          end do
       end do
    end subroutine list_keys
-
-   !> The value of a key as one word: a list has commas between its numbers; if all numbers are equal, one is shown.
-   pure function word_of(list, k) result(word)
-      type(key_list), intent(in) :: list
-      integer, intent(in) :: k   !! number of the key
-      character(:), allocatable :: word
-
-      word = list%words(k, ',')
-      if (any(list%rows(k)%kind == [real_value, integer_value])) then
-         associate (numbers => list%keys(k)%value%numbers)
-            if (maxval(numbers) <= minval(numbers)) word = word(:index(word//',', ',') - 1)
-         end associate
-      end if
-      word = escaped(word)
-      if (word == '') word = '-'
-   end function word_of
 
    !> Writes the table. A key has a column if the command line sets the key, or if a deck gives it and its value differs
    !> between decks. A deck in which the key has no effect has NaN in the column, or '-' in place of a word. The unit of
@@ -164,117 +152,94 @@ contains
       type(setting_type), intent(in) :: settings(:)   !! settings of the command line
       type(error_type), allocatable, intent(out) :: error
 
-      character :: blank   ! stands for the blanks within words
-      character(:), allocatable :: line, names, units
-      character(longest_column), allocatable :: general(:)   ! units of the summary's columns by their general names
-      integer, allocatable :: columns(:), width(:)
-      type(column_type), allocatable :: common(:), own(:)    ! columns with the units of all summaries; of one
-      type(collected_deck), allocatable :: shown(:)   ! the decks with their rows
+      integer, allocatable :: keys(:), width(:)   ! numbers of the keys that have columns; least widths of all columns
+      type(column_type), allocatable :: columns(:)             ! all columns, as words
+      !> Those of the summary, and the same with the general names of units, such as 'length'.
+      type(column_type), allocatable :: general(:), summary(:)
+      type(collected_deck), allocatable :: shown(:)   ! the decks with their summaries
       type(output_file) :: file
-      integer :: d, k, one   ! one: number of a deck that has a summary, or 0
+      integer :: d, k
+      integer :: before   ! number of the columns before those of the summary
 
-      one = findloc(decks%is_written, .true., dim=1)
-      call choose_columns(decks, settings, columns)
-      allocate (width(2 + size(columns)), source=narrowest)
-      shown = decks
+      call choose_columns(decks, settings, keys)
+      before = 2 + size(keys)
+      allocate (shown, source=decks)
+      allocate (general, source=column_list(summary_columns()))
+      allocate (summary, source=general)
+      allocate (width(before + size(summary)), source=0)
       do d = 1, size(shown)
-         if (shown(d)%is_written) call read_summary(shown(d), error)
-         if (allocated(error)) return
          if (.not. allocated(shown(d)%case)) shown(d)%case = '-'
-         width(:2) = max(width(:2), [len(escaped(shown(d)%path)), len(shown(d)%case)] + 1)
-         do k = 1, size(columns)
-            associate (key => shown(d)%keys(columns(k)))
-               width(2 + k) = max(width(2 + k), len(key%word) + 1, len_trim(key%name) + 1)
-            end associate
+         do k = 1, before
+            width(k) = max(width(k), len(word_about(shown(d), k)) + 1)
          end do
-      end do
-      names = ''
-      units = ''
-      common = column_list(summary_columns())
-      general = common%unit
-      do d = 1, size(shown)
          if (.not. shown(d)%is_written) cycle
-         own = column_list(shown(d)%units)
-         if (size(own) /= size(common)) cycle   ! of another version, which --resume has kept
-         if (d == one) common%unit = own%unit
-         where (own%unit /= common%unit) common%unit = general
+         call read_summary(shown(d), size(summary), error)
+         if (allocated(error)) return
+         if (d == findloc(decks%is_written, .true., dim=1)) summary%unit = shown(d)%columns%unit
+         where (shown(d)%columns%unit /= summary%unit) summary%unit = general%unit
       end do
-      do k = 1, size(common)
-         names = names//' '//trim(common(k)%name)
-         units = units//' ['//trim(common(k)%unit)//']'
-      end do
-      if (one > 0) names = shown(one)%names
       if (has_commas(path)) then
-         blank = blank_mark
          call file%open(comma_path=path)
       else
-         blank = '_'
          call file%open(path)
       end if
       call file%put(table_mark//version//' ('//revision//')')
-      do d = 1, size(decks)
-         if (.not. decks(d)%is_written) call file%put('# failed: '//escaped(decks(d)%path))
-      end do
-      line = ''
-      do k = 1, size(width)
-         line = line//cell(k, '[-]')
-      end do
-      units = line(2:)//' '//units
-      call file%put('#'//units)
-      line = cell(1, 'deck')//cell(2, 'case')
-      do k = 1, size(columns)
-         line = line//cell(2 + k, trim(shown(1)%keys(columns(k))%name))
-      end do
-      call file%put_words(line//names, units)
       do d = 1, size(shown)
-         line = cell(1, escaped(shown(d)%path))//cell(2, shown(d)%case)
-         do k = 1, size(columns)
-            line = line//cell(2 + k, shown(d)%keys(columns(k))%word)
-         end do
-         if (.not. shown(d)%is_written) then
-            shown(d)%names = names
-            shown(d)%rows = failed_row(names, common)//newline
-         end if
-         ! All rows of a summary are as long as its line of names. Those of another summary may be longer or shorter.
-         associate (rows => shown(d)%rows, length => len(shown(d)%names))
-            do k = 1, len(rows), length + 1
-               call file%put_words(line//rows(k:k + length - 1))
-            end do
-         end associate
+         if (.not. shown(d)%is_written) call file%put('# failed: '//escaped(shown(d)%path))
+      end do
+      columns = [(column_type(unit='-'), k=1, before), summary]
+      columns(:before)%name = [character(longest_column) :: 'deck', 'case', shown(1)%keys(keys)%name]
+      columns%kind = of_words
+      call file%put_columns(columns, width)
+      do d = 1, size(shown)
+         call put_rows(shown(d))
       end do
       call file%finish(error)
 
    contains
 
-      !> A word at the right of a column, without blanks.
-      pure function cell(column, word) result(text)
-         integer, intent(in) :: column
-         character(*), intent(in) :: word
-         character(:), allocatable :: text
+      !> Writes the rows of a deck. That of a deck that has failed has NaN, and '-' for words but its status.
+      subroutine put_rows(deck)
+         type(collected_deck), intent(in) :: deck
 
-         text = repeat(' ', width(column) - len(word))//replaced(word, ' ', blank)
-      end function cell
+         character(max(longest_word, maxval(width))) :: row(size(width))
+         integer :: i, length
+
+         do i = 1, before
+            row(i) = word_about(deck, i)
+         end do
+         if (deck%is_written) then
+            length = len(deck%rows)/deck%loads
+            do i = 1, len(deck%rows), length
+               read (deck%rows(i:i + length - 2), *) row(before + 1:)
+               call file%put_row([real(dp) ::], row)
+            end do
+         else
+            row(before + 1:) = 'NaN'
+            where (summary%kind == of_words) row(before + 1:) = '-'
+            where (summary%name == 'status') row(before + 1:) = 'failed'
+            call file%put_row([real(dp) ::], row)
+         end if
+      end subroutine put_rows
+
+      !> The name of a deck, of its case, or the value of one of its keys. Only between commas it may have blanks.
+      pure function word_about(deck, column) result(word)
+         type(collected_deck), intent(in) :: deck
+         integer, intent(in) :: column   !! number of the column
+         character(:), allocatable :: word
+
+         select case (column)
+         case (1)
+            word = escaped(deck%path)
+         case (2)
+            word = deck%case
+         case default
+            word = deck%keys(keys(column - 2))%word
+         end select
+         if (.not. has_commas(path)) word = replaced(word, ' ', '_')
+      end function word_about
 
    end subroutine write_collected_table
-
-   !> The row of a deck that has failed: NaN, and '-' for words but its status.
-   pure function failed_row(names, columns) result(row)
-      character(*), intent(in) :: names               !! line of the names, each at the right of its column
-      type(column_type), intent(in) :: columns(:)
-      character(len(names)) :: row
-
-      character(:), allocatable :: word
-      integer :: k, last
-
-      row = ''
-      do k = 1, size(columns)
-         word = 'NaN'
-         if (columns(k)%kind == of_words) word = '-'
-         if (columns(k)%name == 'status') word = 'failed'
-         last = index(names//' ', ' '//trim(columns(k)%name)//' ') + len_trim(columns(k)%name)
-         row(last - len(word) + 1:last) = word
-      end do
-   end function failed_row
 
    !> Whether the name of a table asks for commas.
    pure logical function has_commas(path)
@@ -285,8 +250,9 @@ contains
 
    !> Reads a summary: a head whose last line has the units, a line of names, and rows. Errors: exit_file_trouble, also
    !> for one whose rows are not as many as the loads, or not as long as the line of names.
-   subroutine read_summary(deck, error)
-      type(collected_deck), intent(inout) :: deck   !! gets `units`, `names` and `rows`
+   subroutine read_summary(deck, columns, error)
+      type(collected_deck), intent(inout) :: deck   !! gets `columns` and `rows`
+      integer, intent(in) :: columns                !! the number of columns that a summary has
       type(error_type), allocatable, intent(out) :: error
 
       character(:), allocatable :: text
@@ -298,10 +264,9 @@ contains
       units = index(text, newline//'#', back=.true.) + 2
       names = units + index(text(units:), newline)
       rows = names + index(text(names:), newline)
-      deck%units = text(units:names - 2)
-      deck%names = text(names:rows - 2)
+      deck%columns = column_list(text(units:names - 2))
       deck%rows = text(rows:)
-      is_whole = deck%rows /= '' .and. len(deck%rows) == deck%loads*(rows - names)
+      is_whole = deck%rows /= '' .and. len(deck%rows) == deck%loads*(rows - names) .and. size(deck%columns) == columns
       if (is_whole) is_whole = all([(deck%rows(k*(rows - names):k*(rows - names)) == newline, k=1, deck%loads)])
       if (.not. is_whole) call fatal_error(error, exit_file_trouble, &
          escaped(deck%stem)//'.summary.dat: the summary is damaged. Without --resume all decks are run again')
@@ -318,7 +283,6 @@ contains
       logical, allocatable :: differs(:)   ! whether the value of each key differs between decks
 
       allocate (columns(0))
-      if (size(decks) == 0) return
       decides = decks%is_written .or. .not. any(decks%is_written)
       first = findloc(decides, .true., dim=1)
       differs = [(any([(decides(d) .and. decks(d)%keys(k)%word /= decks(first)%keys(k)%word, d=1, size(decks))]), &

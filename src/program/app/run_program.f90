@@ -115,7 +115,7 @@ contains
       if (command_line%options%check%is_true) then
          do i = 1, size(scenes)
             if (.not. allocated(scenes(i)%scene)) cycle
-            call separate(i, quiet)
+            if (i > 1 .and. .not. quiet) call say('')
             call check_scene(scenes(i)%scene, quiet)
          end do
          call finish(worst)
@@ -239,7 +239,7 @@ contains
          end do
       end if
       if (.not. keep_going .or. quiet) return
-      call separate(size(scenes) + 1, quiet)
+      call say('')
       call say(integer_text(size(scenes))//' decks: '// &
          integer_text(count(status == exit_fine))//' solved, '//integer_text(count(status == exit_not_converged))// &
          ' with loads NOT solved as requested, '//integer_text(count(.not. scenes%is_written))//' failed')
@@ -254,7 +254,7 @@ contains
 
          type(results_type) :: results
 
-         call separate(i, quiet)
+         if (i > 1 .and. .not. quiet) call say('')
          call run_scene(scenes(i)%scene, quiet, command_line%options%resume%is_true, size(scenes) > 1, results, &
                         status, error)
          if (allocated(error)) status = error%status
@@ -309,14 +309,6 @@ contains
       end subroutine take_job
 
    end subroutine run_scenes
-
-   !> Writes an empty line between two decks.
-   subroutine separate(deck, quiet)
-      integer, intent(in) :: deck   !! number of the deck that follows
-      logical, intent(in) :: quiet
-
-      if (deck > 1 .and. .not. quiet) call say('')
-   end subroutine separate
 
    !> Writes the message of an error, if there is one, and ends the program with its status.
    subroutine stop_on(error)

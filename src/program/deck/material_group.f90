@@ -163,13 +163,11 @@ contains
 
       real(dp) :: compliance
 
-      if (values%e1%is_given) then
-         compliance = (1 - values%nu1%number**2)/values%e1%number
-         if (values%e2%is_given) compliance = compliance + (1 - values%nu2%number**2)/values%e2%number
-         e_star = 1/compliance
-      else
-         e_star = values%e_star%number
-      end if
+      e_star = values%e_star%number
+      if (.not. values%e1%is_given) return
+      compliance = (1 - values%nu1%number**2)/values%e1%number
+      if (values%e2%is_given) compliance = compliance + (1 - values%nu2%number**2)/values%e2%number
+      e_star = 1/compliance
    end function plane_strain_modulus
 
    !> Sets the key nu of another group, Poisson's ratios, to the ratios of &material. If both groups give ratios, or

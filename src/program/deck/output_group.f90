@@ -13,7 +13,7 @@ module wavycon_output_group
    implicit none (type, external)
    private
 
-   public :: check_output_group, list_output_keys, plain_directory
+   public :: check_output_group, list_output_keys
 
    !> Most points of lines and maps along a side of the cell.
    integer, parameter :: most_points = 8192
@@ -72,11 +72,13 @@ contains
       type(surface_type), allocatable, intent(in) :: surface   !! not allocated if it could not be made
 
       type(table_type), allocatable :: tables(:)
-      character(:), allocatable :: refusal
+      character(:), allocatable :: directory, refusal
       integer :: i
 
       call values%directory%set_default(text='outputs/'//case_name)
-      call values%directory%set(text=plain_directory(values%directory%text))
+      ! A '/' follows the directory in the names of files.
+      directory = values%directory%text
+      call values%directory%set(text=directory(:max(1, verify(directory, '/', back=.true.))))
       if (.not. allocated(surface)) return
       if (.not. method%grid_points%is_bad) call set_points(values, method, surface)
       if (method%solver%is_bad .or. .not. any(values%tables%is_true)) return
@@ -112,26 +114,5 @@ contains
       if (values%map_points%is_given) points = values%map_points%pair
       call values%map_points%set(points(:surface%dimension))
    end subroutine set_points
-
-   !> The path of a directory without superfluous './' and '/', so that two ways to write a path give the same text.
-   pure function plain_directory(name) result(plain)
-      character(*), intent(in) :: name
-      character(:), allocatable :: plain
-
-      character(*), parameter :: superfluous(*) = ['// ', '/./']   ! each means the same as '/'
-      integer :: i, k
-
-      plain = trim(name)//'/'
-      do k = 1, size(superfluous)
-         do
-            i = index(plain, trim(superfluous(k)))
-            if (i == 0) exit
-            plain = plain(:i)//plain(i + len_trim(superfluous(k)):)
-         end do
-      end do
-      if (index(plain, './') == 1) plain = plain(3:)
-      if (plain == '') plain = './'
-      if (len(plain) > 1) plain = plain(:len(plain) - 1)
-   end function plain_directory
 
 end module wavycon_output_group

@@ -6,7 +6,7 @@
 module wavycon_read_deck
    use wavycon_deck_groups, only: list_keys, number_of_groups
    use wavycon_deck_parser, only: take_groups
-   use wavycon_deck_text, only: at_end, deck_text_type, next_token, problem_report, read_deck_text, token_type
+   use wavycon_deck_text, only: at_end, deck_text_type, next_token, problem_report, token_type
    use wavycon_error, only: error_type, exit_bad_input, fatal_error
    use wavycon_formula_kinds, only: radii_of
    use wavycon_hertz_ball, only: hertz_ball, hertz_contact
@@ -28,30 +28,15 @@ module wavycon_read_deck
    implicit none (type, external)
    private
 
-   public :: read_deck, parse_deck
+   public :: parse_deck
 
 contains
 
-   !> Reads a deck file: all that the deck describes becomes the scene.
-   !>
-   !> Errors: exit_file_trouble if the deck or its height map cannot be read; exit_bad_input, with a report of all
-   !> problems, for a bad deck; exit_bad_input for a bad height map.
-   subroutine read_deck(path, scene, error, settings)
-      character(*), intent(in) :: path
-      type(scene_type), intent(out) :: scene  !! to be used only if there is no error
-      type(error_type), allocatable, intent(out) :: error
-      type(setting_type), intent(in), optional :: settings(:)   !! keys set in place of those of the deck
-
-      type(deck_text_type) :: text
-
-      call read_deck_text(path, text, error)
-      if (allocated(error)) return
-      call parse_deck(text, scene, error, settings)
-   end subroutine read_deck
-
-   !> Reads a deck from its text. Each group's values are taken first, then the surface is made, then each group is
-   !> checked against it; all problems of these steps are reported together. Errors: those of `read_deck`, and
-   !> exit_bad_input for `heights` beside a kind of surface that is not 'file'.
+   !> Reads a deck from its text: all that the deck describes becomes the scene. Each group's values are taken first,
+   !> then the surface is made, then each group is checked against it. All problems of these steps are reported
+   !> together. Errors: exit_file_trouble if the height map cannot be read; exit_bad_input, with a report of all
+   !> problems, for a bad deck; exit_bad_input for a bad height map, and for `heights` beside a kind of surface that is
+   !> not 'file'.
    subroutine parse_deck(deck_text, scene, error, settings, heights, in_memory)
       type(deck_text_type), intent(in) :: deck_text
       type(scene_type), intent(out), target :: scene  !! to be used only if there is no error

@@ -61,10 +61,7 @@ contains
       if (own == 0 .or. k == 0) return
       associate (keys => table%rows)
          needs = words_of(keys(own)%needs)
-         adds = .false.
-         do i = 1, size(needs)
-            adds = adds .or. any(keys%name == needs(i) .and. keys%way == 0)
-         end do
+         adds = any([(any(keys%name == needs(i) .and. keys%way == 0), i=1, size(needs))])
          replaces = keys(own)%way > 0 .and. keys(own)%way/100 == keys(k)%way/100 .and. &
                     keys(own)%way /= keys(k)%way .and. .not. adds
          if (setting%key == table%selector) replaces = any(words_of(keys(own)%choices) == plain_value(setting)) &
@@ -93,18 +90,13 @@ contains
 
       name = scene%case%text
       do i = 1, size(settings)
-         select case (settings(i)%group)
-         case ('scene')
-            if (settings(i)%key == 'case') return
-         case ('output')
-            cycle
-         case default
-            value = plain_value(settings(i))
-            do k = 1, len(value)
-               if (index(name_letters, value(k:k)) == 0) value(k:k) = '_'
-            end do
-            name = name//'-'//settings(i)%key//'-'//value
-         end select
+         if (settings(i)%group == 'scene' .and. settings(i)%key == 'case') return
+         if (any(settings(i)%group == ['scene ', 'output'])) cycle
+         value = plain_value(settings(i))
+         do k = 1, len(value)
+            if (index(name_letters, value(k:k)) == 0) value(k:k) = '_'
+         end do
+         name = name//'-'//settings(i)%key//'-'//value
       end do
       if (len(name) > longest_name) then
          call scene%problems%add(0, 'with the values of --set the name of the case would be longer than '// &

@@ -105,11 +105,7 @@ contains
       type(key_value), intent(in) :: key
       character(*), intent(in) :: words   !! what is wrong, what was expected
 
-      integer :: position
-
-      position = self%position
-      if (key%position > 0) position = key%position
-      call self%problems%add(position, words)
+      call self%problems%add(merge(key%position, self%position, key%position > 0), words)
    end subroutine complain
 
    !> Adds a key: a pointer to its value, and its row of the table.

@@ -99,7 +99,11 @@ contains
       case (real_value)
          words = 'a number'
          if (key%most_values > 1) words = 'up to '//integer_text(key%most_values)//' numbers'
-         words = words//bounds(key)
+         if (key%least > -no_bound) words = words//' >= '//short_number(key%least)
+         if (key%above > -no_bound) words = words//' > '//short_number(key%above)
+         if (max(key%least, key%above) > -no_bound .and. min(key%most, key%below) < no_bound) words = words//' and'
+         if (key%most < no_bound) words = words//' <= '//short_number(key%most)
+         if (key%below < no_bound) words = words//' < '//short_number(key%below)
       case (integer_value)
          words = 'an integer'
          if (key%most_values > 1) words = 'up to '//integer_text(key%most_values)//' integers'
@@ -130,18 +134,5 @@ contains
       end do
       words = listed(pack(ways, ways /= ''), ', or ')
    end function ways_in_words
-
-   !> The bounds of a number in words, such as ' >= 0 and < 1'; empty if there are none.
-   pure function bounds(key) result(words)
-      type(key_type), intent(in) :: key
-      character(:), allocatable :: words
-
-      words = ''
-      if (key%least > -no_bound) words = ' >= '//short_number(key%least)
-      if (key%above > -no_bound) words = ' > '//short_number(key%above)
-      if (len(words) > 0 .and. min(key%most, key%below) < no_bound) words = words//' and'
-      if (key%most < no_bound) words = words//' <= '//short_number(key%most)
-      if (key%below < no_bound) words = words//' < '//short_number(key%below)
-   end function bounds
 
 end module wavycon_key_table

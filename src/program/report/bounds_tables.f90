@@ -23,9 +23,9 @@ module wavycon_bounds_tables
 
    !> A solution without a grid is evaluated on one. `usual_points` is the number of its points along each side of the
    !> cell for an accuracy of 1e-6, of profiles (1) and of surfaces in 2-D (2). The width of the bounds falls with the
-   !> cube of the number of points, so that finer accuracies take 2^n times as many points, up to `most_points`. On more
-   !> points the rounding (E25) makes the bounds of profiles wider: those of the energy of the wave at 0.5 p* are 2e-11
-   !> apart on 8192 and on 16384 points, 8e-11 on 65536.
+   !> cube of the number of points, so that finer accuracies take 2^n times as many points, up to `most_points`, and
+   !> coarser ones fewer, down to 64. On more points the rounding (E25) makes the bounds of profiles wider: those of the
+   !> energy of the wave at 0.5 p* are 2e-11 apart on 8192 and on 16384 points, 8e-11 on 65536.
    integer, parameter :: usual_points(2) = [4096, 512], most_points(2) = [16384, 1024]
 
 contains
@@ -117,7 +117,7 @@ contains
       class(contact_fields), allocatable :: fields
       integer :: i, j, points(2)
       logical :: is_halved(2)
-      real(dp) :: offset(2)
+      real(dp) :: doublings, offset(2)
       real(dp), allocatable :: u(:, :)
 
       associate (surface => results%solver%surface, solution => results%loads(load))
@@ -133,7 +133,9 @@ contains
             end do
          else
             points = 1
-            points(:surface%dimension) = points_for(results%scene%method%accuracy%number, surface%dimension)
+            doublings = ceiling(log(1.0e-6_dp/max(results%scene%method%accuracy%number, tiny(offset)))/(3*log(2.0_dp)))
+            points(:surface%dimension) = nint(min(max(usual_points(surface%dimension)*2.0_dp**doublings, 64.0_dp), &
+                                                  real(most_points(surface%dimension), dp)))
             points = points/surface%maps_in_cell()
             ! Of an even surface the bounds take a quarter of the cell, with points in the middle of their steps.
             is_halved = points > 1 .and. surface%shape%is_even()
@@ -148,18 +150,6 @@ contains
             surface, solution%value(approach) - mean_compliance(surface)*solution%pbar_over_pstar, p, gap)
       end associate
    end subroutine fields_of
-
-   !> The number of points along each side with which the bounds are about as close as the accuracy: a power of 2 times
-   !> `usual_points`, at least 64, at most `most_points`.
-   pure integer function points_for(accuracy, dimension) result(points)
-      real(dp), intent(in) :: accuracy   !! relative, > 0
-      integer, intent(in) :: dimension
-
-      real(dp) :: doublings
-
-      doublings = ceiling(log(1.0e-6_dp/max(accuracy, tiny(accuracy)))/(3*log(2.0_dp)))
-      points = nint(min(max(usual_points(dimension)*2.0_dp**doublings, 64.0_dp), real(most_points(dimension), dp)))
-   end function points_for
 
    !> Sets the gap to h + u - delta, if that is negative, where the pressure is the hardness, as (E24) needs it. The
    !> displacement u of the pressure is computed by Fourier transforms.

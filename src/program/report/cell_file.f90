@@ -56,8 +56,7 @@ contains
 
       self%points = map_points(results)
       ! A map counts as one plane, a table with several planes for each load with all of them.
-      counted = 1
-      if (size(planes) > 1) counted = product(planes)
+      counted = merge(product(planes), 1, size(planes) > 1)
       self%as_text = is_text(results%scene%output%map_format%text, self%points*[1, counted])
       self%side = results%solver%surface%sides()
       self%offset = map_offset(results, self%points)

@@ -258,7 +258,7 @@ contains
          name = checkpoint_name(results, number)
          if (path_kind(name) /= path_absent) then
             if (.not. allocated(first_name)) first_name = name
-            call read_checkpoint(name, now, results, known, status, error)
+            call read_checkpoint()
          else if (number >= results%sharing%ranks) then
             exit
          end if
@@ -268,60 +268,46 @@ contains
       do load = 1, size(known)
          if (allocated(results%loads(load)%source) .and. .not. known(load)) deallocate (results%loads(load)%source)
       end do
+
+   contains
+
+      !> Reads the checkpoint of a path.
+      subroutine read_checkpoint()
+         character(len(mark)) :: start
+         character(:), allocatable :: trouble
+         integer(int64), allocatable :: words(:)
+         integer :: ios, record, unit
+
+         call open_file(name, unit, error)
+         if (allocated(error)) return
+         trouble = ''
+         read (unit, iostat=ios) start
+         if (ios /= 0 .or. start /= mark) trouble = 'this is no checkpoint of this version of wavycon'
+         record = 0
+         do while (trouble == '')
+            call get(unit, words)
+            record = record + 1
+            if (.not. allocated(words)) then
+               if (record > 1) exit
+               allocate (words(0))
+            end if
+            if (size(words) == 0) then
+               trouble = 'the checkpoint is damaged'
+            else if (record == 1) then
+               trouble = difference(trim(transfer(words, repeat(' ', bytes_of_word*size(words)))), now)
+            else if (words(1) == 0) then
+               status = int(words(2))
+            else
+               load = int(words(1))
+               if (.not. known(load) .and. results%sharing%is_own_load(load)) call results%loads(load)%unpack( &
+                  words(2:), results%sharing%kind /= distributed_grids, known(load))
+            end if
+         end do
+         close (unit)
+         if (trouble /= '') call fatal_error(error, exit_bad_input, escaped(name)//': '//trouble//advice)
+      end subroutine read_checkpoint
+
    end subroutine read_checkpoints
-
-   !> Reads one checkpoint. Results, `known`, `done` and errors are those of read_checkpoints.
-   subroutine read_checkpoint(name, now, results, known, done, error)
-      character(*), intent(in) :: name               !! path of the checkpoint
-      character(*), intent(in) :: now                !! description of this run
-      type(results_type), intent(inout) :: results
-      logical, intent(inout) :: known(:)
-      integer, intent(inout) :: done                 !! the `status` of read_checkpoints
-      type(error_type), allocatable, intent(out) :: error
-
-      character(len(mark)) :: start
-      character(:), allocatable :: trouble
-      integer(int64), allocatable :: words(:)
-      integer :: load, record, status, unit
-
-      call open_file(name, unit, error)
-      if (allocated(error)) return
-      trouble = ''
-      read (unit, iostat=status) start
-      if (status /= 0 .or. start /= mark) trouble = 'this is no checkpoint of this version of wavycon'
-      record = 0
-      do while (trouble == '')
-         call get(unit, words)
-         record = record + 1
-         if (.not. allocated(words)) then
-            if (record > 1) exit
-            allocate (words(0))
-         end if
-         if (size(words) == 0) then
-            trouble = 'the checkpoint is damaged'
-         else if (record == 1) then
-            trouble = difference(trim(transfer(words, repeat(' ', bytes_of_word*size(words)))), now)
-         else if (words(1) == 0) then
-            done = int(words(2))
-         else
-            load = int(words(1))
-            if (.not. known(load) .and. results%sharing%is_own_load(load)) call results%loads(load)%unpack( &
-               words(2:), results%sharing%kind /= distributed_grids, known(load))
-         end if
-      end do
-      close (unit)
-      if (trouble /= '') call fatal_error(error, exit_bad_input, escaped(name)//': '//trouble//advice)
-   end subroutine read_checkpoint
-
-   !> A text that identifies what is solved: version, surface, and the resolved deck without the paths of deck and
-   !> results.
-   function describe(results) result(text)
-      type(results_type), intent(in) :: results
-      character(:), allocatable :: text
-
-      text = 'wavycon '//version//' ('//revision//')'//newline//'surface '//integer_text(surface_checksum(results))// &
-             newline//results%scene%fingerprint
-   end function describe
 
    !> A sentence that says how the descriptions of two runs differ; empty if they are equal.
    function difference(before, now) result(words)
@@ -384,10 +370,12 @@ contains
       total = modulo(total*factor + shiftr(word, 32), prime)
    end function with_word
 
-   !> Checksum of a surface: of its amplitude, the sides of its cell and its Fourier coefficients. It does not depend on
-   !> how the coefficients are distributed over the ranks.
-   integer(int64) function surface_checksum(results) result(total)
+   !> A text that identifies what is solved: version, surface, and the resolved deck without the paths of deck and
+   !> results. The surface is told by a checksum of its amplitude, the sides of its cell and its Fourier coefficients,
+   !> which does not depend on how the coefficients are distributed over the ranks.
+   function describe(results) result(text)
       type(results_type), intent(in) :: results
+      character(:), allocatable :: text
 
       integer(int64) :: sums(2)
 
@@ -398,9 +386,11 @@ contains
             sums = [sum_over_waves(series%wave%re, series%first()), sum_over_waves(series%wave%im, series%first())]
          end if
          if (results%sharing%kind == distributed_grids .and. surface%is_distributed()) call results%sharing%add(sums)
-         total = checksum([transfer([surface%amplitude, surface%length], sums(:0)), sums])
+         text = 'wavycon '//version//' ('//revision//')'//newline//'surface '// &
+                integer_text(checksum([transfer([surface%amplitude, surface%length], sums(:0)), sums]))//newline// &
+                results%scene%fingerprint
       end associate
-   end function surface_checksum
+   end function describe
 
    !> The sum, over the wave numbers in X that this rank has, of a checksum of the coefficients of that wave number. The
    !> sum of these over the ranks is the same however wave numbers are distributed.

@@ -65,11 +65,10 @@ contains
          end if
          call logger%say('loads: '//integer_text(size(loads))//', '//words)
          if (results%sharing%words() /= '') call logger%say('ranks: '//results%sharing%words())
-         if (scene%loads_by == by_pressure .and. scene%p_star > 0.0_dp .and. .not. surface%has_free_edges) then
-            if (minval(scene%target) > far_beyond) call logger%note('all loads are more than '// &
-               short_number(far_beyond)//' times p*, which closes the gap everywhere. Do the units agree, and are '// &
-               'loads over p* no percentages?')
-         end if
+         if (scene%loads_by == by_pressure .and. scene%p_star > 0.0_dp .and. .not. surface%has_free_edges .and. &
+             minval(scene%target) > far_beyond) call logger%note('all loads are more than '// &
+            short_number(far_beyond)//' times p*, which closes the gap everywhere. Do the units agree, and are '// &
+            'loads over p* no percentages?')
          call note_scene(scene, logger)
       end associate
    end subroutine show_scene

@@ -9,16 +9,13 @@ module wavycon_output_file
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_kinds, only: dp
    use wavycon_memory_table, only: column_type, longest_column, memory_table, of_words
-   use wavycon_plain_text, only: escaped, newline, replaced, with_mark
+   use wavycon_plain_text, only: escaped, newline, with_mark
    use wavycon_system, only: end_written, error_text, open_written, path_file, path_kind, put_bytes, put_text, &
       refusal_to_write, remove_file
    implicit none (type, external)
    private
 
    public :: output_file
-
-   !> Stands for a blank inside a word of a line of `put_words`: between commas it becomes a blank.
-   character, parameter, public :: blank_mark = achar(31)
 
    !> How tables and files of numpy begin: a file of this name that begins otherwise is not replaced.
    character(*), parameter, public :: table_mark = '# wavycon ', npy_mark = char(147)//'NUMPY'
@@ -58,10 +55,9 @@ module wavycon_output_file
       integer :: blocks = 0                       !! number of data sets begun by begin_block
       integer(c_int), allocatable :: column_end(:)       !! position in a row at which each column ends
       integer(c_int), allocatable :: kinds(:)            !! kind of each column: of_reals, of_integers, of_words
-      character(:), allocatable :: units                 !! the line of the units, each in brackets
    contains
       procedure :: open => open_file
-      procedure :: replace, is_open, put, put_words, put_numbers
+      procedure :: replace, is_open, put, put_numbers
       procedure :: put_columns, begin_block, put_row, note_trouble, finish
    end type output_file
 
@@ -125,11 +121,13 @@ contains
 
    !> Sets the columns and writes the header line of their units. The line of their names follows at the head of each
    !> block or, without blocks, before the first row.
-   subroutine put_columns(self, columns)
+   subroutine put_columns(self, columns, least_width)
       class(output_file), intent(inout) :: self
       type(column_type), intent(in) :: columns(:)   !! names without blanks; units are shown in brackets
+      integer, intent(in), optional :: least_width(:)   !! of columns with long words
 
       character(longest_column + 2) :: in_brackets(size(columns))
+      character(:), allocatable :: units
       integer :: i, last, width
 
       if (associated(self%memory)) call self%memory%start(columns)
@@ -140,77 +138,68 @@ contains
       do i = 1, size(columns)
          in_brackets(i) = '['//trim(columns(i)%unit)//']'
          width = max(narrowest, len_trim(columns(i)%name) + 1, len_trim(in_brackets(i)) + merge(2, 1, i == 1))
+         if (present(least_width)) width = max(width, least_width(i))
          last = last + width
          self%column_end(i) = last
       end do
-      self%units = aligned(self, in_brackets)
-      call self%put('#'//self%units(2:))
+      units = repeat(' ', last)
+      call put_at(units, self%column_end, in_brackets)
+      call self%put('#'//units(2:))
    end subroutine put_columns
-
-   !> A line with a word at the right of each of the first columns.
-   pure function aligned(self, words) result(line)
-      type(output_file), intent(in) :: self
-      character(*), intent(in) :: words(:)   !! words of the columns, in order
-      character(:), allocatable :: line
-
-      integer :: i
-
-      line = repeat(' ', self%column_end(size(words)))
-      do i = 1, size(words)
-         line(self%column_end(i) - len_trim(words(i)) + 1:self%column_end(i)) = trim(words(i))
-      end do
-   end function aligned
 
    !> Writes the line with the names of the columns; with commas only the first time, and with the units.
    subroutine put_names(self)
       type(output_file), intent(inout) :: self
 
+      character(:), allocatable :: line
+
+      line = repeat(' ', maxval(self%column_end))
+      call put_at(line, self%column_end, self%columns%name)
       if (self%has_names) then
-         call self%put(aligned(self, self%columns%name))
+         call self%put(line)
       else
-         call self%put_words(aligned(self, self%columns%name), self%units)
+         call put_words(self, line)
       end if
       self%has_names = .true.
    end subroutine put_names
 
-   !> Writes a line of words, to the file and with commas.
-   subroutine put_words(self, line, units)
-      class(output_file), intent(inout) :: self
-      character(*), intent(in) :: line                !! words, separated by blanks
-      character(*), intent(in), optional :: units     !! as in comma_line
+   !> Puts words at the right of columns.
+   pure subroutine put_at(line, ends, words)
+      character(*), intent(inout) :: line    !! blank in these columns
+      integer(c_int), intent(in) :: ends(:)  !! where these columns end
+      character(*), intent(in) :: words(:)
 
-      character(:), allocatable :: text
+      integer :: i
+
+      do i = 1, size(words)
+         line(ends(i) - len_trim(words(i)) + 1:ends(i)) = trim(words(i))
+      end do
+   end subroutine put_at
+
+   !> Writes a line of the words of all columns: to the file, and with commas between them. There the names, which are
+   !> the first line, have units but [-] behind them. A word that has commas or quotes stands in quotes, and its quotes
+   !> are doubled (RFC 4180).
+   subroutine put_words(self, line)
+      type(output_file), intent(inout) :: self
+      character(*), intent(in) :: line   !! each word at the right of its column
+
+      character(:), allocatable :: text, word
+      integer :: first, i
 
       call self%put(line)
       if (allocated(self%trouble) .or. .not. allocated(self%comma_name)) return
-      text = comma_line(line, units)//newline
-      call check(self, put_text(self%commas, text, len(text, c_size_t)), self%comma_name)
-   end subroutine put_words
-
-   !> The words of a line with commas between them. A word that has commas or quotes stands in quotes, and its quotes
-   !> are doubled (RFC 4180). `blank_mark` becomes a blank.
-   pure function comma_line(line, units) result(text)
-      character(*), intent(in) :: line                !! words, separated by blanks
-      character(*), intent(in), optional :: units     !! '[unit]' of each word, which is added unless it is '[-]'
-      character(:), allocatable :: text
-
-      character(:), allocatable :: rest, rest_of_units, unit, word
-
       text = ''
-      rest = adjustl(line)
-      rest_of_units = ''
-      if (present(units)) rest_of_units = adjustl(units)
-      do while (rest /= '')
-         word = rest(:index(rest//' ', ' ') - 1)
-         rest = adjustl(rest(len(word) + 1:))
-         unit = rest_of_units(:index(rest_of_units//' ', ' ') - 1)
-         rest_of_units = adjustl(rest_of_units(len(unit) + 1:))
-         if (unit /= '[-]') word = word//unit
+      first = 1
+      do i = 1, size(self%columns)
+         word = trim(adjustl(line(first:self%column_end(i))))
+         first = self%column_end(i) + 1
+         if (.not. self%has_names .and. self%columns(i)%unit /= '-') word = word//'['//trim(self%columns(i)%unit)//']'
          if (scan(word, ',"') > 0) word = '"'//with_mark(word, '"', '"')//'"'
          text = text//','//word
       end do
-      text = replaced(text(2:), blank_mark, ' ')
-   end function comma_line
+      text = text(2:)//newline
+      call check(self, put_text(self%commas, text, len(text, c_size_t)), self%comma_name)
+   end subroutine put_words
 
    !> Begins a block, a data set that gnuplot's `index` counts: two blank lines, unless the block is the first, a
    !> comment, and the names of the columns, which gnuplot looks for at the head of each data set.
@@ -231,7 +220,6 @@ contains
       character(*), intent(in), optional :: words(:)   !! values of the columns of words, in order; without blanks
 
       character(:), allocatable :: line
-      integer :: i, k
 
       if (associated(self%memory)) then
          call self%memory%add_row(numbers, words)
@@ -240,14 +228,8 @@ contains
       if (.not. self%has_names) call put_names(self)
       line = repeat(' ', self%column_end(size(self%kinds)))
       call put_in_columns(size(self%kinds, kind=c_int), self%kinds, self%column_end, numbers, line)
-      if (present(words)) then
-         k = 0
-         do i = 1, size(words)
-            k = k + findloc(self%kinds(k + 1:), of_words, dim=1)
-            line(self%column_end(k) - len_trim(words(i)) + 1:self%column_end(k)) = trim(words(i))
-         end do
-      end if
-      call self%put_words(line)
+      if (present(words)) call put_at(line, pack(self%column_end, self%kinds == of_words), words)
+      call put_words(self, line)
    end subroutine put_row
 
    !> Records an error of the operating system, if there is one.
@@ -286,20 +268,17 @@ contains
          call check(self, end_written(self%file, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int))
       if (allocated(self%comma_name)) &
          call check(self, end_written(self%commas, merge(1_c_int, 0_c_int, self%is_open()), 0_c_int), self%comma_name)
-      do i = 1, size(self%replaced)
-         if (self%is_open()) call remove_replaced(self%replaced(i))
-      end do
-      if (allocated(self%trouble)) &
+      if (allocated(self%trouble)) then
          call fatal_error(error, exit_file_trouble, escaped(self%name)//': cannot be written: '//self%trouble)
+         return
+      end if
+      do i = 1, size(self%replaced)
+         associate (old => self%replaced(i))
+            if (.not. allocated(old%name)) exit
+            if (path_kind(old%name) /= path_file) cycle
+            if (refusal_to_write(old%name//c_null_char, old%mark//c_null_char) == 0) call remove_file(old%name)
+         end associate
+      end do
    end subroutine finish
-
-   !> Removes a file of an earlier run, if there is one.
-   subroutine remove_replaced(file)
-      type(replaced_file), intent(in) :: file
-
-      if (.not. allocated(file%name)) return
-      if (path_kind(file%name) /= path_file) return
-      if (refusal_to_write(file%name//c_null_char, file%mark//c_null_char) == 0) call remove_file(file%name)
-   end subroutine remove_replaced
 
 end module wavycon_output_file

@@ -90,11 +90,10 @@ contains
       type(grid_transform) :: transform
       real(dp), allocatable :: column(:, :), height(:, :)
       integer :: k, l, points(2)
-      logical :: is_own, is_here
+      logical :: is_own
       real(dp) :: first   ! position of the first point along x and y, in steps
 
-      associate (surface => results%solver%surface)
-         is_here = results%sharing%is_first
+      associate (surface => results%solver%surface, is_here => results%sharing%is_first)
          points = surface%points/surface%maps_in_cell()
          if (all(points == 0)) points = map_points(results)
          if (associated(results%memory)) then
@@ -102,37 +101,32 @@ contains
          else if (is_here) then
             call file%open(results%scene%directory//'/'//results%scene%case//'.height.npy', npy_header(points([2, 1])))
          end if
-         if (surface%is_distributed()) then
-            call slab%start(points)
+         first = merge(0.5_dp, 0.0_dp, surface%mirrored)
+         call slab%start(points, whole=.not. surface%is_distributed())
+         if (slab%is_distributed) then
             allocate (height(points(1), slab%columns()))
             call transform%start(points, surface%shape%is_even())
             call transform%sample(surface%shape, height)
-            allocate (column(points(1), 1))
-            do l = 1, points(2)
-               is_own = l >= slab%first .and. l <= slab%last
-               if (is_own) column(:, 1) = surface%amplitude*height(:, l - slab%first + 1)
-               call results%sharing%share_numbers(is_own, column)
-               if (is_here) call file%put_numbers(column)
-            end do
          else
             call check_memory(file, points, numbers_a_point, '')
-            if (file%is_open()) then
-               first = merge(0.5_dp, 0.0_dp, surface%mirrored)
-               call surface%sample_shape(points, [first, first], height)
-               height = surface%amplitude*height
-               if (associated(results%memory)) then
-                  do l = 1, points(2)
-                     do k = 1, points(1)
-                        call file%put_row([surface%sides()*([k, l] - 1 + first)/points, height(k, l)])
-                     end do
-                  end do
-               else
-                  call file%put_numbers(height)
-               end if
-            end if
+            if (file%is_open()) call surface%sample_shape(points, [first, first], height)
          end if
+         allocate (column(points(1), 1))
+         do l = 1, points(2)
+            if (.not. allocated(height)) exit
+            is_own = l >= slab%first .and. l <= slab%last
+            if (is_own) column(:, 1) = surface%amplitude*height(:, l - slab%first + 1)
+            if (slab%is_distributed) call results%sharing%share_numbers(is_own, column)
+            if (associated(results%memory)) then
+               do k = 1, points(1)
+                  call file%put_row([surface%sides()*([k, l] - 1 + first)/points, column(k, 1)])
+               end do
+            else if (is_here) then
+               call file%put_numbers(column)
+            end if
+         end do
+         if (is_here) call file%finish(error)
       end associate
-      if (is_here) call file%finish(error)
    end subroutine write_height_table
 
 end module wavycon_surface_tables

@@ -2,6 +2,7 @@
 !> processes of the parallel program.
 module wavycon_run_scene
    use wavycon_checkpoint, only: checkpoint_file, checkpoint_name, read_checkpoints
+   use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_error, only: error_type, exit_file_trouble, exit_fine, fatal_error
    use wavycon_file_bytes, only: read_file
    use wavycon_kinds, only: dp, int64
@@ -9,7 +10,7 @@ module wavycon_run_scene
    use wavycon_notes, only: show_loads, show_scene, show_stresses, sum_up
    use wavycon_output_file, only: output_file
    use wavycon_plain_text, only: escaped, integer_text, newline, quoted, short_number
-   use wavycon_read_deck, only: read_deck
+   use wavycon_read_deck, only: parse_deck
    use wavycon_results, only: results_type
    use wavycon_run_log, only: run_log
    use wavycon_scene, only: by_percolation, by_pressure, by_yield, scene_type
@@ -42,7 +43,7 @@ contains
       integer, intent(out) :: status   !! exit_fine or exit_not_converged
       type(error_type), allocatable, intent(out) :: error
 
-      integer(int64) :: status_of_all(1)   ! sum of the statuses: ranks that did not work have 0
+      integer(int64) :: status_of_all(1)   ! sum of the statuses: ranks but the first have 0
       type(run_log), target :: logger
       type(table_type), allocatable :: tables(:)
 
@@ -52,18 +53,50 @@ contains
       call show_scene(results, logger)
       if (results%sharing%kind == distributed_grids) call collect(results, tables, error)
       if (allocated(error)) return
-      if (results%sharing%is_shared) then
-         call solve_and_write(results, tables, resume, is_one_of_many, logger, status, error)
-      else
-         call results%sharing%work_alone(.true.)
-         if (results%sharing%is_first) &
-            call solve_and_write(results, tables, resume, is_one_of_many, logger, status, error)
-         call results%sharing%work_alone(.false.)
+      call results%sharing%work_alone(.not. results%sharing%is_shared)
+      if (results%sharing%is_first .or. results%sharing%is_shared) call solve_and_write()
+      call results%sharing%work_alone(.false.)
+      call results%sharing%share_error(error)
+      status_of_all = merge(status, 0, results%sharing%is_first)
+      call results%sharing%add(status_of_all)
+      status = int(status_of_all(1))
+
+   contains
+
+      !> Solves the loads of a scene and writes its tables.
+      subroutine solve_and_write()
+         type(checkpoint_file) :: checkpoint
+         logical :: known(size(results%scene%target))   ! whether the solution of each load was in the checkpoint
+         integer :: status_before   ! exit status of the interrupted run if it had done this deck, else -1
+
+         status_before = -1
+         allocate (results%loads(size(known)))
+         known = .false.
+         call order_loads(results)
+         if (resume) call take_checkpoint(results, known, status_before, logger, error)
+         status = max(status_before, exit_fine)
+         if (allocated(error)) return
+         if (status_before >= 0) then
+            deallocate (results%loads)
+            return
+         end if
+         if (results%sharing%is_first) call prepare_directory(results%scene, error)
          call results%sharing%share_error(error)
-         status_of_all = status
-         call results%sharing%add(status_of_all)
-         status = int(status_of_all(1))
-      end if
+         if (allocated(error)) return
+
+         call checkpoint%create(results, known)
+         call solve_loads(results, known, checkpoint, logger)
+         if (results%sharing%any(.not. checkpoint%is_complete)) call logger%note( &
+            'not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
+         call logger%say_timed('solved and measured')
+         call show_loads(results, logger)
+         call write_results(results, tables, logger, error)
+         if (allocated(error)) return
+         call logger%say_timed('tables written')
+         call sum_up(results, logger, status)
+         call checkpoint%finish(results, status, is_one_of_many)
+      end subroutine solve_and_write
+
    end subroutine run_scene
 
    !> Runs a deck as the program does: solves its loads and writes its tables. Errors: those of the program for a bad
@@ -78,6 +111,7 @@ contains
       integer, intent(out) :: status          !! the program's exit status: exit_fine, exit_not_converged or the error's
       type(error_type), allocatable, intent(out) :: error
 
+      type(deck_text_type) :: text
       type(results_type) :: results
       type(scene_type), allocatable :: scene
       type(setting_type), allocatable :: settings(:)   ! if not allocated, the optional argument is absent
@@ -90,51 +124,11 @@ contains
       end if
       status = exit_fine
       allocate (scene)
-      call read_deck(path, scene, error, settings)
+      call read_deck_text(path, text, error)
+      if (.not. allocated(error)) call parse_deck(text, scene, error, settings)
       if (.not. allocated(error)) call run_scene(scene, quiet, .false., .false., results, status, error)
       if (allocated(error)) status = error%status
    end subroutine run_deck
-
-   !> Solves the loads of a scene and writes its tables. Errors: those of run_scene.
-   subroutine solve_and_write(results, tables, resume, is_one_of_many, logger, status, error)
-      type(results_type), intent(inout) :: results        !! with the started solver; gets the solutions
-      type(table_type), intent(in) :: tables(:)           !! the tables to write
-      logical, intent(in) :: resume, is_one_of_many       !! as in run_scene
-      type(run_log), intent(inout), target :: logger
-      integer, intent(out) :: status
-      type(error_type), allocatable, intent(out) :: error
-
-      type(checkpoint_file) :: checkpoint
-      logical :: known(size(results%scene%target))   ! whether the solution of each load was in the checkpoint
-      integer :: status_before   ! exit status of the interrupted run if it had done this deck, else -1
-
-      status_before = -1
-      allocate (results%loads(size(known)))
-      known = .false.
-      call order_loads(results)
-      if (resume) call take_checkpoint(results, known, status_before, logger, error)
-      status = max(status_before, exit_fine)
-      if (allocated(error)) return
-      if (status_before >= 0) then
-         deallocate (results%loads)
-         return
-      end if
-      if (results%sharing%is_first) call prepare_directory(results%scene, error)
-      call results%sharing%share_error(error)
-      if (allocated(error)) return
-
-      call checkpoint%create(results, known)
-      call solve_loads(results, known, checkpoint, logger)
-      if (results%sharing%any(.not. checkpoint%is_complete)) &
-         call logger%note('not all loads could be written to '//escaped(checkpoint_name(results))//', to resume from')
-      call logger%say_timed('solved and measured')
-      call show_loads(results, logger)
-      call write_results(results, tables, logger, error)
-      if (allocated(error)) return
-      call logger%say_timed('tables written')
-      call sum_up(results, logger, status)
-      call checkpoint%finish(results, status, is_one_of_many)
-   end subroutine solve_and_write
 
    !> Finds the largest stresses and writes the tables. If grids are distributed over the ranks, all ranks together
    !> write some of the tables first. For the other tables the first rank then collects the fields of all ranks and
@@ -240,8 +234,7 @@ contains
       call read_checkpoints(results, known, status, name, error)
       call results%sharing%share_error(error)
       if (allocated(error)) return
-      ranks_that_know = 0
-      where (known) ranks_that_know = 1
+      ranks_that_know = merge(1_int64, 0_int64, known)
       call results%sharing%add(ranks_that_know)
       ! A load on a distributed grid is known if all ranks have their columns. At the interruption some may have had
       ! them and others not.

@@ -18,7 +18,7 @@ module wavycon_solve_loads
    use wavycon_quantities, only: approach, contact_area, mean_gap
    use wavycon_results, only: results_type
    use wavycon_run_log, only: log_progress, run_log
-   use wavycon_scene, only: by_approach, by_mean_gap, by_percolation, by_pressure, by_yield
+   use wavycon_scene, only: by_mean_gap, by_percolation, by_yield
    use wavycon_solution_record, only: is_good_status, not_found, record_words
    use wavycon_stress_fields, only: stress_fields
    use wavycon_stress_setting, only: stress_setting
@@ -36,6 +36,8 @@ module wavycon_solve_loads
    !> The quantity that is given for a load, for by_pressure, by_mean_gap, by_contact_area, by_yield, by_approach and
    !> by_percolation of wavycon_scene in this order; 0: not a quantity of the solution's record.
    integer, parameter :: quantity_of(*) = [0, mean_gap, contact_area, 0, approach, 0]
+   !> The value of a point on the curve of adhesion that is given, in the same order; 0: the contact area fraction.
+   integer, parameter :: coordinate_of(*) = [at_load, at_approach, 0, 0, at_approach, 0]
 
 contains
 
@@ -293,17 +295,8 @@ contains
       associate (work => results%scene%interface_setting%work, curve => results%adhesion, &
                  surface => results%solver%surface, accuracy => results%scene%method%accuracy%number)
          loads = results%scene%target
-         select case (results%scene%loads_by)
-         case (by_pressure)
-            given = at_load
-         case (by_approach)
-            given = at_approach
-         case (by_mean_gap)
-            given = at_approach
-            loads = 1.0_dp - loads
-         case default
-            given = 0   ! the contact area fraction
-         end select
+         given = coordinate_of(results%scene%loads_by)
+         if (results%scene%loads_by == by_mean_gap) loads = 1.0_dp - loads
          ! A curve in closed form takes no time, but ends at the largest load.
          is_followed = allocated(curve%at_loads) .and. .not. curve%problem%has_closed_form
          if (is_followed) curve%at_loads = curve%at_loads(:0)

@@ -167,15 +167,8 @@ contains
       allocate (solvers, source=words_of(names))
       solvers = pack(solvers, [(refusal(trim(solvers(i)), surface) == '', i=1, size(solvers))])
       traits = [(traits_of(solvers(i)), i=1, size(solvers))]
-      if (present(trait)) then
-         if (trait == 'details') then
-            solvers = pack(solvers, traits%has_details)
-         else if (trait == 'errors') then
-            solvers = pack(solvers, traits%has_errors)
-         else
-            solvers = pack(solvers, traits%has_coefficients)
-         end if
-      end if
+      if (present(trait)) solvers = pack(solvers, (trait == 'details' .and. traits%has_details) .or. &
+         (trait == 'errors' .and. traits%has_errors) .or. (trait == 'coefficients' .and. traits%has_coefficients))
       words = ''
       if (size(solvers) > 0) words = listed(in_quotes(solvers), ' or ')
    end function solvers_for

@@ -25,7 +25,6 @@ contains
       type(surface_group), intent(inout) :: values
 
       integer :: i
-      integer, allocatable :: m(:), n(:)
 
       call values%length_y%set_default(values%length_x%numbers)
       call values%waves_y%set_default(0*values%waves_x%numbers)
@@ -34,10 +33,8 @@ contains
       call check_size(values%waves_x, 'waves_x')
       call check_size(values%waves_y, 'waves_y')
       call check_size(values%phases, 'phases')
-      m = nint(values%waves_x%numbers)
-      n = nint(values%waves_y%numbers)
-      if (size(m) /= size(n)) return
-      i = findloc(m == 0 .and. n == 0, .true., dim=1)
+      if (size(values%waves_x%numbers) /= size(values%waves_y%numbers)) return
+      i = findloc(nint(values%waves_x%numbers) == 0 .and. nint(values%waves_y%numbers) == 0, .true., dim=1)
       if (i > 0) call values%complain(values%waves_x, 'wave '//integer_text(i)// &
          ' has waves_x = 0 and waves_y = 0: it is a height and no wave; leave it out')
 

@@ -119,11 +119,7 @@ contains
       type(surface_group), intent(in) :: values
       type(self_affine_spectrum) :: spectrum
 
-      integer :: points(2)
-
-      points = nint(values%points%numbers)
-      spectrum%dimension = 2
-      if (points(2) == 1) spectrum%dimension = 1
+      spectrum%dimension = merge(1, 2, nint(values%points%pair(2)) == 1)
       spectrum%length = [values%length_x%number, values%length_y%number]
       spectrum%hurst = values%hurst%number
       spectrum%anisotropy = values%anisotropy%number
