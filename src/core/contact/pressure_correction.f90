@@ -130,7 +130,7 @@ contains
       field = 0.0_sp
       call state%put_residual(field)
       if (.not. allocated(extension%contact)) &
-         call extension%start(state%slab%points, half_space%even, half_space%kernel, half_space%frequency_of_step)
+         call extension%start(state%slab, half_space%even, half_space%kernel, half_space%frequency_of_step)
       if (state%contact_is_new) then
          !$omp parallel do num_threads(state%region%threads)
          do c = 1, state%region%chunks
