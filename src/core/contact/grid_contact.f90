@@ -199,7 +199,6 @@ contains
       allocate (source)
       source%rotated = allocated(self%smaller)
       source%history = answer%history
-      source%residual_indentation = answer%state%residual_indentation
       call source%take_edge(answer%edge)
       call move_alloc(source, solution%source)
    end subroutine solve_partial_contact
