@@ -52,10 +52,8 @@ contains
 
       self%points = points
       self%even = even
-      self%waves = points(1)
-      if (.not. even) self%waves = points(1)/2 + 1
-      self%numbers = 1
-      if (.not. even) self%numbers = 2
+      self%waves = merge(points(1), points(1)/2 + 1, even)
+      self%numbers = merge(1, 2, even)
       call self%slab%start(points, whole)
    end subroutine start
 
