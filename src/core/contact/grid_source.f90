@@ -174,7 +174,6 @@ contains
       if (self%rotated) pressure = in_other_angles(pressure, to_difference_angles)
       allocate (own)
       call start_grid_fields(own%fields, surface, self%edge, self%record%value(approach), self%rotated)
-      own%repeats = .not. surface%has_free_edges
       call start_series_stress_fields(own%series_stress_fields, surface, pressure, &
                                       self%record%pbar_over_pstar/cells**2, or_nan(error), is_sampled=.true., &
                                       approach_error=of_approach, crossings=crossings, edge_pressure=edge_pressure)
