@@ -125,14 +125,12 @@ contains
       real(sp), intent(in) :: field(:, :)                 !! shape (M, slab%columns())
       real(sp), intent(inout), contiguous :: values(:)    !! shape (chunk(c+1) - chunk(c)) or more
 
-      integer :: i, j, r, offset   ! offset: index in `values` less that in the column
+      integer :: r
 
       do r = self%chunk_run(c), self%chunk_run(c + 1) - 1
-         j = self%column(r)
-         offset = self%position(r) - self%chunk(c) + 1 - self%first(r)
-         do i = self%first(r), self%last(r)
-            values(i + offset) = field(i, j)
-         end do
+         associate (a => self%first(r), b => self%last(r), k => self%position(r) - self%chunk(c) + 1)
+            values(k:k + b - a) = field(a:b, self%column(r))
+         end associate
       end do
    end subroutine take_chunk
 
@@ -143,14 +141,12 @@ contains
       real(sp), intent(in), contiguous :: values(:)    !! shape (chunk(c+1) - chunk(c)) or more
       real(sp), intent(inout) :: field(:, :)           !! shape (M, slab%columns())
 
-      integer :: i, j, r, offset   ! offset: index in `values` less that in the column
+      integer :: r
 
       do r = self%chunk_run(c), self%chunk_run(c + 1) - 1
-         j = self%column(r)
-         offset = self%position(r) - self%chunk(c) + 1 - self%first(r)
-         do i = self%first(r), self%last(r)
-            field(i, j) = values(i + offset)
-         end do
+         associate (a => self%first(r), b => self%last(r), k => self%position(r) - self%chunk(c) + 1)
+            field(a:b, self%column(r)) = values(k:k + b - a)
+         end associate
       end do
    end subroutine put_chunk
 

@@ -89,8 +89,6 @@ contains
    recursive subroutine average_contact(self)
       class(multilevel_preconditioner), intent(inout) :: self
 
-      real(dp) :: total(1)
-
       if (allocated(self%coarser)) then
          call average(self%contact, self%averaged, self%coarser%slab, self%coarser%contact)
          call self%coarser%average_contact()
@@ -98,9 +96,8 @@ contains
          self%factor = min(1.0_sp, self%decay*self%reach)
          if (self%coarser%is_balance) self%factor = 1.0_sp
       else
-         total = self%slab%column_totals(reshape(sum(real(self%contact, dp), dim=1), [1, self%slab%columns()]))
-         self%decay = real(min(1.0_dp, decay_alone &
-                                       + decay_growth*sqrt(total(1)/product(real(self%slab%points, dp)))), sp)
+         self%decay = real(min(1.0_dp, decay_alone + decay_growth*sqrt(self%slab%sum_of(real(self%contact, dp)) &
+                                                                       /product(real(self%slab%points, dp)))), sp)
       end if
    end subroutine average_contact
 
