@@ -49,7 +49,6 @@ module wavycon_grid_sequence
       type(change_history), private :: at_hardness
       logical :: accurate = .false.        !! whether all error estimates are within the accuracy
       logical :: out_of_memory = .false.   !! whether a grid was needed that does not fit into memory
-      integer :: grids = 0                 !! number of grids that were solved
       integer :: iterations = 0            !! number of iterations on all grids
       real(dp) :: transform_pairs = 0.0_dp !! transforms there and back, in units of one pair on the finest grid
    end type sequence_answer
@@ -198,7 +197,6 @@ contains
          if (.not. state%interrupted) answer%value(elastic_energy) = 0.5_dp*state%slab%sum_of( &
             state%pressure*(state%gap - h + state%approach))/product(real(state%slab%points, dp))
       end associate
-      answer%grids = answer%grids + 1
       answer%iterations = answer%iterations + answer%state%iterations
    end subroutine solve_level
 

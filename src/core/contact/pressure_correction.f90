@@ -102,7 +102,6 @@ contains
          end if
       end do
       call state%add_to(grid)
-      grid%corrections = grid%corrections + 1
       ! A correction without iterations changes the approach alone. It counts as one iteration, because otherwise the
       ! number of steps in `solve_on_grid` would not be limited.
       grid%iterations = grid%iterations + max(1, iterations)
