@@ -211,8 +211,8 @@ contains
 
    !> Packs the source into one array for a checkpoint: (1:2) the stiffness of `edge`, (3:4) the points along x and y,
    !> (5) the first column of this rank, (6:8) whether the cell is rotated, the grid covers a quarter of the cell, and
-   !> pressures are uniform on cells, as 1 or 0, (9:17) `history`, and then the pressures and gaps in the columns of this
-   !> rank.
+   !> pressures are uniform on cells, as 1 or 0, (9:17) `history`, and then the pressures and gaps in the columns of
+   !> this rank.
    pure subroutine pack_source(self, values)
       class(grid_source), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory

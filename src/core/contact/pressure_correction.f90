@@ -323,7 +323,8 @@ contains
          allocate (after, source=state%change - real(step, dp)*direction)
          above = contact*(start + after)
          below = contact*(state%below_hardness - after)
-         shift = bounded_shift(state%slab, state%region%chunk(state%region%strip_chunk), above, below, -state%sum_of(after))
+         shift = bounded_shift(state%slab, state%region%chunk(state%region%strip_chunk), above, below, &
+                               -state%sum_of(after))
          after = min(max(after + contact*shift, -real(start, dp)), real(state%below_hardness, dp))
          change = real(state%change - after, sp)
          ! With this addition rounding does not leave the pressure below H.
