@@ -52,7 +52,7 @@ contains
       associate (unused => surface); end associate
       allocate (own)
       own%frame = self%frame
-      own%symmetry = self%frame%symmetry()
+      own%symmetry = self%frame%symmetry
       own%accuracy = self%accuracy
       allocate (own%fitted)
       call start_fitted_fields(own%fitted, self%frame%lattice, self%answer)
@@ -70,7 +70,7 @@ contains
       allocate (own)
       own%pbar_over_pstar = self%record%pbar_over_pstar
       own%side_ratio = surface%length(2)/surface%length(1)
-      own%symmetry = self%frame%symmetry()
+      own%symmetry = self%frame%symmetry
       own%frame = self%frame
       call start_fitted_answer_stress(own%fitted, self%frame%lattice, self%answer, self%accuracy)
       call move_alloc(own, answer)
@@ -134,7 +134,7 @@ contains
             curves(k)%theta = in_cell(2*pi*centre%im/length(2) + pi*half_cells) + 2*pi*rotated*edge(places)%im/length(2)
          end associate
       end do
-      ! All contours are alike. The area is computed from the fitted function; that of the polygon would be less accurate.
+      ! All contours are alike. The area is that of the fitted function; that of the polygon would be less accurate.
       associate (pool => self%answer%pool, numbers => [(k, k=1, contours)])
          curves%turns = merge(-1, 1, pool)
          curves%spot = merge(1, numbers, pool)
