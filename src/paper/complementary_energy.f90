@@ -13,6 +13,7 @@
 !> Numbers (E..) are the equations of README.md in this directory.
 module wavycon_complementary_energy
    use wavycon_constraint_points, only: choose_points, term_values
+   use wavycon_cosine_rows, only: cosine_rows
    use wavycon_fourier_terms, only: fourier_terms
    use wavycon_kinds, only: dp
    use wavycon_qp_problem, only: qp_problem
@@ -20,6 +21,9 @@ module wavycon_complementary_energy
    private
 
    public :: bounds_at, energy_problem
+
+   !> With more elements the products with the matrix of the constraints take longer than sums by `cosine_rows`.
+   integer, parameter :: largest_matrix = 500000
 
 contains
 
@@ -38,6 +42,8 @@ contains
       problem%linear(terms%fundamental) = 1.0_dp
       call choose_points(terms%dimension, points_per_side, symmetry, k, l)
       problem%normals = term_values(terms, points_per_side, k, l)
+      if (terms%dimension == 2 .and. size(problem%normals) > largest_matrix) &
+         problem%rows = cosine_rows(terms, points_per_side, k, l)
       if (has_hardness) problem%normals = reshape([problem%normals, -problem%normals], [terms%count, 2*size(k)])
       allocate (problem%bounds(size(problem%normals, 2)), source=0.0_dp)
    end function energy_problem

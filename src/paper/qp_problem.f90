@@ -2,12 +2,13 @@
 !> solution, and the Karush-Kuhn-Tucker conditions of that. Numbers (Q..) are the equations of README.md in this
 !> directory.
 module wavycon_qp_problem
+   use wavycon_cosine_rows, only: cosine_rows
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv
    implicit none (type, external)
    private
 
-   public :: kkt_residual, qp_problem, qp_solution, row_products
+   public :: kkt_residual, qp_problem, qp_solution
 
    !> A solution is accepted if its relative KKT residual (Q3) is at most this, some thousand roundings.
    real(dp), parameter, public :: kkt_tolerance = 1e-12_dp
@@ -17,29 +18,13 @@ module wavycon_qp_problem
    integer, parameter, public :: qp_iteration_limit = 1
    integer, parameter, public :: qp_inaccurate = 2   !! the KKT residual exceeds its tolerance
 
-   !> A faster way to Cx than by the elements of C.
-   type, abstract :: row_products
-   contains
-      procedure(products), deferred :: of
-   end type row_products
-
-   abstract interface
-      !> Cx.
-      subroutine products(self, x, values)
-         import :: dp, row_products
-         class(row_products), intent(in) :: self
-         real(dp), intent(in) :: x(:)         !! shape (n)
-         real(dp), intent(out) :: values(:)   !! shape (m)
-      end subroutine products
-   end interface
-
    !> A problem of n unknowns and m constraints.
    type :: qp_problem
       real(dp), allocatable :: hessian(:)     !! the diagonal of D, all > 0, shape (n)
       real(dp), allocatable :: linear(:)      !! c, shape (n)
       real(dp), allocatable :: normals(:, :)  !! C': column i is the gradient of constraint i, shape (n, m)
       real(dp), allocatable :: bounds(:)      !! b, shape (m)
-      class(row_products), allocatable :: rows   !! C as an operator, if that is faster
+      type(cosine_rows), allocatable :: rows  !! a faster way to Cx than by the elements of C, if there is one
    contains
       procedure :: slacks
    end type qp_problem

@@ -27,6 +27,7 @@ module stress_kkt_of_grid
       real(dp) :: residual = huge(1.0_dp)
       real(dp) :: complementarity = huge(1.0_dp)   !! mean of |pressure times gap| where p < H [p* Delta]
       real(dp) :: gap = huge(1.0_dp)           !! largest error of the gaps reported, out of contact [Delta]
+      real(dp) :: size_of_gaps = huge(1.0_dp)  !! mean of gaps and of overlaps where p = H [Delta]
       real(dp) :: depth = huge(1.0_dp)         !! of the surface's lowest point below its highest [Delta]
       !> Root mean square of the gap at the points beside those with 0 < p < H, times the square root of the part of all
       !> points that these are [Delta]: the default tolerance is a part of it.
@@ -76,6 +77,7 @@ contains
          kkt%residual = real(sqrt((sum(merge(gap, min(gap, 0.0_qp), contact)**2, free .or. .not. contact) &
                                    + sum(max(gap, 0.0_qp)**2, contact .and. .not. free))/size(gap)), dp)
          kkt%complementarity = real(sum(abs(pressure*gap), free .or. .not. contact)/size(gap), dp)
+         kkt%size_of_gaps = real(sum(abs(gap), .not. free)/size(gap), dp)
          beside = .not. free .and. (cshift(free, 1, 1) .or. cshift(free, -1, 1) &
                                     .or. cshift(free, 1, 2) .or. cshift(free, -1, 2))
          kkt%edge_gap = real(sqrt(sum(gap**2, beside)/max(count(beside), 1)*count(free)/size(gap)), dp)

@@ -14,7 +14,6 @@ program stress_scenes
    use wavycon_deck_text, only: deck_text_type, read_deck_text
    use wavycon_read_deck, only: parse_deck
    use wavycon_methods, only: start_solver
-   use wavycon_quantities, only: mean_gap
    use wavycon_scene, only: scene_type
    use wavycon_solution_record, only: status_name
    implicit none (type, external)
@@ -53,8 +52,7 @@ program stress_scenes
          write (*, '(a, "|", es24.16, "|", a, 8("|", es23.15e3), "|", i0)') 'grid', scene%target(i), &
             trim(status_name(solution%status)), of_grid%load, of_grid%residual, of_grid%complementarity, of_grid%gap, &
             solution%residual, &
-            solution%value(mean_gap) + source%residual_indentation, of_grid%edge_gap, of_grid%depth, &
-            solution%iterations
+            of_grid%size_of_gaps, of_grid%edge_gap, of_grid%depth, solution%iterations
       end select
    end do
 

@@ -82,15 +82,12 @@ contains
 
       type(contact_solution) :: on_grids
       type(grid_slab) :: slab
-      type(solver_traits) :: of_grids
 
       if (.not. allocated(self%preferred)) then
          call self%grid_contact%solve_partial_contact(pbar_over_pstar, solution)
          return
       end if
       call self%preferred%solve(pbar_over_pstar, solution)
-      of_grids = self%grid_contact%traits()
-      call slab%start(of_grids%finest_grid)
       if (.not. slab%any(.not. solution%is_good())) return
       call self%grid_contact%solve_partial_contact(pbar_over_pstar, on_grids)
       if (slab%any(on_grids%status == converged .or. on_grids%status == interrupted .or. &
@@ -108,11 +105,10 @@ contains
       of_grids = self%grid_contact%traits()
       traits = of_grids
       if (allocated(self%preferred)) traits = self%preferred%traits()
-      if (self%choice == has_lattice .or. of_grids%needs_whole_grids) then
+      if (self%choice == has_lattice .or. self%surface%has_free_edges) then
          traits%coarsest_grid = of_grids%coarsest_grid
          traits%finest_grid = of_grids%finest_grid
       end if
-      traits%needs_whole_grids = of_grids%needs_whole_grids
       traits%solver = by_auto
       traits%has_details = .false.
       traits%choice = self%choice

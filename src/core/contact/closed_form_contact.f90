@@ -94,21 +94,18 @@ contains
          if (.not. solved) solution%solution_record = no_solution(pbar_over_pstar, by_closed_form, not_found)
          return
       end if
+      allocate (closed_form_source :: solution%source)
+      solution%pbar_over_pstar = pbar_over_pstar
+      solution%status = closed_form
+      solution%solver = by_closed_form
+      solution%value(mean_gap) = kuznetsov_mean_gap_over_amplitude(pbar_over_pstar)
+      ! 1 - gap, without cancellation at light loads.
+      solution%value(approach) = pbar_over_pstar*(1.0_dp - log(pbar_over_pstar))
+      solution%value(contact_area) = westergaard_contact_area_fraction(pbar_over_pstar)
+      solution%value(peak_pressure) = westergaard_peak_pressure_over_pstar(pbar_over_pstar)
       ! The elastic energy per nominal area [p* Delta] is the integral of P d(approach), -P ln P dP by (20).
-      associate (gap => kuznetsov_mean_gap_over_amplitude(pbar_over_pstar), &
-                 energy => pbar_over_pstar**2*(0.25_dp - 0.5_dp*log(pbar_over_pstar)))
-         allocate (closed_form_source :: solution%source)
-         solution%pbar_over_pstar = pbar_over_pstar
-         solution%status = closed_form
-         solution%solver = by_closed_form
-         solution%value(mean_gap) = gap
-         ! 1 - gap, without cancellation at light loads.
-         solution%value(approach) = pbar_over_pstar*(1.0_dp - log(pbar_over_pstar))
-         solution%value(contact_area) = westergaard_contact_area_fraction(pbar_over_pstar)
-         solution%value(peak_pressure) = westergaard_peak_pressure_over_pstar(pbar_over_pstar)
-         solution%value(elastic_energy) = energy
-         solution%error(elastic_energy) = 0.0_dp
-      end associate
+      solution%value(elastic_energy) = pbar_over_pstar**2*(0.25_dp - 0.5_dp*log(pbar_over_pstar))
+      solution%error(elastic_energy) = 0.0_dp
    end subroutine solve_partial_contact
 
    !> Makes the fields (`at`) of Westergaard's solution.

@@ -31,9 +31,9 @@ module wavycon_contact_region
       !> the first point in vectors, shape (number of runs or more).
       integer, allocatable, private :: column(:), first(:), last(:), position(:)
       integer, allocatable, private :: chunk_run(:)      !! first run of each chunk, shape (chunks+1)
-      integer, allocatable, private :: strip_chunk(:)    !! first chunk of each strip, shape (strips+1)
+      integer, allocatable :: strip_chunk(:)             !! first chunk of each strip, shape (strips+1)
    contains
-      procedure :: start, gather_scaled, take_chunk, put_chunk, convolve_chunk, strip_places, strip_sums, correct
+      procedure :: start, gather_scaled, take_chunk, put_chunk, convolve, strip_sums, correct
    end type contact_region
 
 contains
@@ -125,14 +125,12 @@ contains
       real(sp), intent(in) :: field(:, :)                 !! shape (M, slab%columns())
       real(sp), intent(inout), contiguous :: values(:)    !! shape (chunk(c+1) - chunk(c)) or more
 
-      integer :: i, j, r, offset   ! offset: index in `values` less that in the column
+      integer :: r
 
       do r = self%chunk_run(c), self%chunk_run(c + 1) - 1
-         j = self%column(r)
-         offset = self%position(r) - self%chunk(c) + 1 - self%first(r)
-         do i = self%first(r), self%last(r)
-            values(i + offset) = field(i, j)
-         end do
+         associate (a => self%first(r), b => self%last(r), k => self%position(r) - self%chunk(c) + 1)
+            values(k:k + b - a) = field(a:b, self%column(r))
+         end associate
       end do
    end subroutine take_chunk
 
@@ -143,50 +141,41 @@ contains
       real(sp), intent(in), contiguous :: values(:)    !! shape (chunk(c+1) - chunk(c)) or more
       real(sp), intent(inout) :: field(:, :)           !! shape (M, slab%columns())
 
-      integer :: i, j, r, offset   ! offset: index in `values` less that in the column
+      integer :: r
 
       do r = self%chunk_run(c), self%chunk_run(c + 1) - 1
-         j = self%column(r)
-         offset = self%position(r) - self%chunk(c) + 1 - self%first(r)
-         do i = self%first(r), self%last(r)
-            field(i, j) = values(i + offset)
-         end do
+         associate (a => self%first(r), b => self%last(r), k => self%position(r) - self%chunk(c) + 1)
+            field(a:b, self%column(r)) = values(k:k + b - a)
+         end associate
       end do
    end subroutine put_chunk
 
-   !> Convolves a field with a stencil at the points of a chunk: the result at point (i, j) is the sum of
+   !> Convolves a field with a stencil at the points of the region: the result at point (i, j) is the sum of
    !> weights(k, l) field(i + k, j + l) over k, l = -R .. R.
-   pure subroutine convolve_chunk(self, c, weights, field, values)
+   subroutine convolve(self, weights, field, values)
       class(contact_region), intent(in) :: self
-      integer, intent(in) :: c                            !! number of the chunk
-      real(sp), intent(in) :: weights(:, :)               !! stencil of the reach R, shape (2R + 1, 2R + 1)
+      real(sp), intent(in) :: weights(:, :)        !! stencil of the reach R, shape (2R + 1, 2R + 1)
       !> The field and R more rows and columns on each side, shape (M + 2R, slab%columns() + 2R).
       real(sp), intent(in), contiguous :: field(:, :)
-      real(sp), intent(inout), contiguous :: values(:)    !! result, shape (chunk(c+1) - chunk(c)) or more
+      real(sp), intent(inout) :: values(:, :)      !! result; does not change elsewhere, shape (M, slab%columns())
 
-      integer :: i, k, l, r, offset   ! offset: index in `values` less that in the column
+      integer :: i, k, l, r
 
-      do r = self%chunk_run(c), self%chunk_run(c + 1) - 1
-         offset = self%position(r) - self%chunk(c) + 1 - self%first(r)
-         values(self%first(r) + offset:self%last(r) + offset) = 0.0_sp
-         do l = 1, size(weights, 2)
-            do k = 1, size(weights, 1)
-               if (abs(weights(k, l)) <= 0.0_sp) cycle
-               do i = self%first(r), self%last(r)
-                  values(i + offset) = values(i + offset) + weights(k, l)*field(i + k - 1, self%column(r) + l - 1)
+      !$omp parallel do num_threads(self%threads) private(i, k, l)
+      do r = 1, self%chunk_run(self%chunks + 1) - 1
+         associate (j => self%column(r))
+            values(self%first(r):self%last(r), j) = 0.0_sp
+            do l = 1, size(weights, 2)
+               do k = 1, size(weights, 1)
+                  if (abs(weights(k, l)) <= 0.0_sp) cycle
+                  do i = self%first(r), self%last(r)
+                     values(i, j) = values(i, j) + weights(k, l)*field(i + k - 1, j + l - 1)
+                  end do
                end do
             end do
-         end do
+         end associate
       end do
-   end subroutine convolve_chunk
-
-   !> The indices in vectors at which the strips begin, and last one more than the number of points, shape (strips + 1).
-   pure function strip_places(self) result(starts)
-      class(contact_region), intent(in) :: self
-      integer :: starts(size(self%strip_chunk))
-
-      starts = self%chunk(self%strip_chunk)
-   end function strip_places
+   end subroutine convolve
 
    !> Adds sums over chunks to sums over strips, which `grid_slab%strip_totals` adds to sums over the grid.
    pure function strip_sums(self, chunk_sums) result(sums)

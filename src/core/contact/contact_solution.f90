@@ -112,12 +112,8 @@ contains
       else if (self%status /= full_contact .and. self%status /= no_load) then
          allocate (answer, source=stress_fields(exist=.false.))
       else
-         mean = 0.0_dp
-         largest = 0.0_dp
-         if (self%status == full_contact) then
-            mean = self%pbar_over_pstar
-            largest = abs(mean) + surface%full_contact_peak
-         end if
+         mean = merge(self%pbar_over_pstar, 0.0_dp, self%status == full_contact)
+         largest = merge(abs(mean) + surface%full_contact_peak, 0.0_dp, self%status == full_contact)
          call self%coefficients(surface, pressure)
          allocate (own)
          call start_series_stress_fields(own, surface, pressure, mean, pressure_error=rounding*largest, &

@@ -34,7 +34,6 @@ module wavycon_contact_solver
       !> load may meet the accuracy, and of the one grid whose points were given; zeros if there is no such grid.
       integer :: coarsest_grid(2) = 0, finest_grid(2) = 0, given_grid(2) = 0
       logical :: lacks_waves = .false.         !! whether the given grid leaves out waves of the surface
-      logical :: needs_whole_grids = .false.   !! whether no grid can be distributed over processes
       integer :: choice = 0                    !! reason of the choice of 'auto', a name of wavycon_auto_contact
    end type solver_traits
 

@@ -103,9 +103,7 @@ contains
    subroutine forget_last_load(self)
       class(fitted_contact), intent(inout) :: self
 
-      type(fitted_answer) :: none
-
-      self%last = none
+      self%last = fitted_answer()
    end subroutine forget_last_load
 
 end module wavycon_fitted_contact

@@ -21,8 +21,9 @@ module wavycon_fitted_frame
       integer :: crests = 1                    !! crests in the surface's cell: at the corner and, if two, at the centre
       real(dp) :: pressure_unit = 1.0_dp       !! unit of pressure on the lattice, pi E* Delta/s [p*]
       type(wave_lattice), allocatable :: lattice   !! lattice of the crests; not allocated: 'fitted' cannot solve it
+      type(equivalent_points) :: symmetry      !! symmetries of the fields on the surface
    contains
-      procedure :: lattice_position, symmetry
+      procedure :: lattice_position
    end type fitted_frame
 
    !> The lattices.
@@ -124,6 +125,7 @@ contains
          end select
       end associate
       frame%pressure_unit = surface%stiffness/frame%side
+      frame%symmetry = equivalent_points(frame%lattice%square, frame%crests)
    end subroutine find_frame
 
    !> The coordinates on the lattice, in units of s, of a point of the surface.
@@ -133,12 +135,5 @@ contains
 
       lattice_position = cmplx(self%length(1)*x/(2*pi), self%length(2)*y/(2*pi), dp)*self%turn/self%side
    end function lattice_position
-
-   !> The symmetries of the fields on the surface.
-   pure type(equivalent_points) function symmetry(self)
-      class(fitted_frame), intent(in) :: self
-
-      symmetry = equivalent_points(self%lattice%square, self%crests)
-   end function symmetry
 
 end module wavycon_fitted_frame

@@ -52,7 +52,7 @@ contains
       associate (unused => surface); end associate
       allocate (own)
       own%frame = self%frame
-      own%symmetry = self%frame%symmetry()
+      own%symmetry = self%frame%symmetry
       own%accuracy = self%accuracy
       allocate (own%fitted)
       call start_fitted_fields(own%fitted, self%frame%lattice, self%answer)
@@ -70,7 +70,7 @@ contains
       allocate (own)
       own%pbar_over_pstar = self%record%pbar_over_pstar
       own%side_ratio = surface%length(2)/surface%length(1)
-      own%symmetry = self%frame%symmetry()
+      own%symmetry = self%frame%symmetry
       own%frame = self%frame
       call start_fitted_answer_stress(own%fitted, self%frame%lattice, self%answer, self%accuracy)
       call move_alloc(own, answer)
@@ -133,21 +133,16 @@ contains
             curves(k)%phi = in_cell(2*pi*centre%re/length(1) + pi*half_cells) + 2*pi*rotated*edge(places)%re/length(1)
             curves(k)%theta = in_cell(2*pi*centre%im/length(2) + pi*half_cells) + 2*pi*rotated*edge(places)%im/length(2)
          end associate
-         ! All contours are alike. The area is computed from the fitted function; that of the polygon would be less
-         ! accurate.
-         curves(k)%turns = 1
-         curves(k)%spot = k
-         curves(k)%pool = 1
-         curves(k)%load = 1.0_dp/contours
-         if (self%answer%pool) then
-            curves(k)%turns = -1
-            curves(k)%spot = 1
-            curves(k)%pool = k
-            curves(k)%load = 1.0_dp
-         end if
-         curves(k)%area = (2*pi)**2/contours*inside
-         curves(k)%length = self%record%value(perimeter)
       end do
+      ! All contours are alike. The area is that of the fitted function; that of the polygon would be less accurate.
+      associate (pool => self%answer%pool, numbers => [(k, k=1, contours)])
+         curves%turns = merge(-1, 1, pool)
+         curves%spot = merge(1, numbers, pool)
+         curves%pool = merge(numbers, 1, pool)
+         curves%load = 1.0_dp/merge(1, contours, pool)
+      end associate
+      curves%area = (2*pi)**2/contours*inside
+      curves%length = self%record%value(perimeter)
    end subroutine contact_contours
 
    !> Adds the gap at the troughs, and gap and pressure at the saddles.

@@ -80,33 +80,27 @@ contains
       self%smaller = smaller_cell(surface)
    end subroutine start
 
-   !> The number of levels of lower accuracy for searches (`contact_solver%level`). Each coarser level has ten times the
-   !> error or, if the points are given, half the points each way.
-   pure integer function coarser_levels(self) result(levels)
-      class(grid_contact), intent(in) :: self
-
-      levels = 0
-      if (all(self%options%points > 0)) then
-         do while (all(mod(self%options%points, 2**(levels + 2)) == 0 .or. self%options%points == 1) .and. &
-                   maxval(self%options%points)/2**(levels + 1) >= least_search_points)
-            levels = levels + 1
-         end do
-      else if (self%options%accuracy > 0.0_dp) then
-         do while (self%options%accuracy*10.0_dp**levels < worst_search_accuracy)
-            levels = levels + 1
-         end do
-      end if
-   end function coarser_levels
-
-   !> The traits. The grids are the first trusted one and the last one of the plan, on the cell that is solved.
+   !> The traits. The grids are the first trusted one and the last one of the plan, on the cell that is solved. Each
+   !> coarser level of a search has ten times the error or, if the points are given, half the points each way.
    type(solver_traits) function traits(self)
       class(grid_contact), intent(in) :: self
 
       type(grid_plan) :: plan
 
-      traits = solver_traits(solver=by_grid, coarser_levels=coarser_levels(self))
+      traits = solver_traits(solver=by_grid)
+      associate (points => self%options%points, accuracy => self%options%accuracy, levels => traits%coarser_levels)
+         if (all(points > 0)) then
+            do while (all(mod(points, 2**(levels + 2)) == 0 .or. points == 1) .and. &
+                      maxval(points)/2**(levels + 1) >= least_search_points)
+               levels = levels + 1
+            end do
+         else if (accuracy > 0.0_dp) then
+            do while (accuracy*10.0_dp**levels < worst_search_accuracy)
+               levels = levels + 1
+            end do
+         end if
+      end associate
       if (.not. self%is_started) return
-      traits%needs_whole_grids = self%surface%has_free_edges
       plan = plan_grids(self%surface, self%options%points)
       if (allocated(self%smaller)) plan = plan_grids(self%smaller, self%options%points)
       traits%coarsest_grid = plan%grids(:, plan%trusted)
@@ -205,7 +199,6 @@ contains
       allocate (source)
       source%rotated = allocated(self%smaller)
       source%history = answer%history
-      source%residual_indentation = answer%state%residual_indentation
       call source%take_edge(answer%edge)
       call move_alloc(source, solution%source)
    end subroutine solve_partial_contact

@@ -16,7 +16,7 @@ module wavycon_grid_fields
    type, extends(contact_fields) :: grid_fields
       private
       type(grid_edge) :: edge                !! pressure or -gap at the points
-      type(surface_type) :: surface
+      type(surface_type), public :: surface
       real(dp) :: approach = 0.0_dp          !! [Delta]
       logical :: rotated = .false.           !! whether the angles of the grid are X + Y and X - Y
       real(dp) :: gap_factor = 1.0_dp        !! Lambda of (C19) [p*^2/Delta^(2/3)]

@@ -7,54 +7,45 @@ module wavycon_grid_refinement
    implicit none (type, external)
    private
 
-   public :: refine, refine_pressure
+   public :: refine_pressure
 
 contains
 
    !> Interpolates the pressure to a finer grid. The field that is interpolated is the pressure in contact and minus the
    !> gap at open points, where the gap is converted to a pressure with the weight of (C11). The fine pressure is this
    !> field where it is positive, so that it ends where (C11) places the edge of contact. The pressure alone would end
-   !> up to a step farther out.
+   !> up to a step farther out. If the grids are distributed, each process first fetches the coarse columns about its
+   !> fine ones.
    subroutine refine_pressure(edge, fine_slab, fine)
       type(grid_edge), intent(in) :: edge                !! pressures and gaps on the coarser grid
       type(grid_slab), intent(in) :: fine_slab           !! the finer grid; distributed if the coarser one is
       real(dp), allocatable, intent(out) :: fine(:, :)   !! pressure, >= 0, shape (M', fine_slab%columns())
 
-      associate (coarse => edge%pressure_or_gap, weight => edge%rule%gap_weight*maxval(edge%stiffness))
-         call refine(merge(1.0_dp, weight, coarse > 0.0_dp)*coarse, edge%slab, edge%even, fine_slab, fine)
-      end associate
-   end subroutine refine_pressure
-
-   !> Interpolates a field linearly to a finer grid; negative results become zero. If the grids are distributed, each
-   !> process first fetches the coarse columns about its fine ones.
-   subroutine refine(coarse, coarse_slab, even, fine_slab, fine)
-      real(dp), intent(in), contiguous :: coarse(:, :)   !! field on M x N points, shape (M, coarse_slab%columns())
-      type(grid_slab), intent(in) :: coarse_slab         !! the coarser grid; N = 1 in 1-D
-      logical, intent(in) :: even                        !! whether the points are those of a quarter of the cell
-      type(grid_slab), intent(in) :: fine_slab           !! the finer grid; distributed if coarse_slab is
-      real(dp), allocatable, intent(out) :: fine(:, :)   !! field on the finer grid, shape (M', fine_slab%columns())
-
       real(dp), allocatable :: needed(:, :)
       integer :: before(fine_slab%points(1)), column, first, j, last, m
-      real(dp) :: line(0:coarse_slab%points(1) + 1), rest, rests(fine_slab%points(1))
+      real(dp) :: line(0:edge%slab%points(1) + 1), rest, rests(fine_slab%points(1))
 
-      m = coarse_slab%points(1)
-      allocate (fine(fine_slab%points(1), fine_slab%columns()), source=0.0_dp)
-      call find_place([(j, j=1, fine_slab%points(1))], fine_slab%points(1), m, even, before, rests)
-      ! The first and last coarse columns that the fine columns of this process need; those beyond the grid are images.
-      call find_place(fine_slab%first, fine_slab%points(2), coarse_slab%points(2), even, first, rest)
-      call find_place(fine_slab%last, fine_slab%points(2), coarse_slab%points(2), even, last, rest)
-      if (fine_slab%columns() == 0) last = first - 2
-      allocate (needed(m, first:last + 1))
-      call coarse_slab%fetch(coarse, even, first, needed)
-      do j = fine_slab%first, fine_slab%last
-         call find_place(j, fine_slab%points(2), coarse_slab%points(2), even, column, rest)
-         line(1:m) = (1.0_dp - rest)*needed(:, column) + rest*needed(:, column + 1)
-         if (.not. any(line(1:m) > 0.0_dp)) cycle
-         line([0, m + 1]) = line(image_of_point([0, m + 1], m, even))
-         fine(:, j - fine_slab%first + 1) = max((1.0_dp - rests)*line(before) + rests*line(before + 1), 0.0_dp)
-      end do
-   end subroutine refine
+      associate (coarse => edge%pressure_or_gap, even => edge%even, points => edge%slab%points, &
+                 fine_points => fine_slab%points, weight => edge%rule%gap_weight*maxval(edge%stiffness))
+         m = points(1)
+         allocate (fine(fine_points(1), fine_slab%columns()), source=0.0_dp)
+         call find_place([(j, j=1, fine_points(1))], fine_points(1), m, even, before, rests)
+         ! The first and last coarse columns that the fine columns of this process need; those beyond the grid are
+         ! images.
+         call find_place(fine_slab%first, fine_points(2), points(2), even, first, rest)
+         call find_place(fine_slab%last, fine_points(2), points(2), even, last, rest)
+         if (fine_slab%columns() == 0) last = first - 2
+         allocate (needed(m, first:last + 1))
+         call edge%slab%fetch(merge(1.0_dp, weight, coarse > 0.0_dp)*coarse, even, first, needed)
+         do j = fine_slab%first, fine_slab%last
+            call find_place(j, fine_points(2), points(2), even, column, rest)
+            line(1:m) = (1.0_dp - rest)*needed(:, column) + rest*needed(:, column + 1)
+            if (.not. any(line(1:m) > 0.0_dp)) cycle
+            line([0, m + 1]) = line(image_of_point([0, m + 1], m, even))
+            fine(:, j - fine_slab%first + 1) = max((1.0_dp - rests)*line(before) + rests*line(before + 1), 0.0_dp)
+         end do
+      end associate
+   end subroutine refine_pressure
 
    !> Finds the coarse point before a fine one along one axis, and the distance between both in coarse steps. The points
    !> of a quarter of the cell begin half a step from its border, those of a whole cell at the border.

@@ -49,7 +49,6 @@ module wavycon_grid_sequence
       type(change_history), private :: at_hardness
       logical :: accurate = .false.        !! whether all error estimates are within the accuracy
       logical :: out_of_memory = .false.   !! whether a grid was needed that does not fit into memory
-      integer :: grids = 0                 !! number of grids that were solved
       integer :: iterations = 0            !! number of iterations on all grids
       real(dp) :: transform_pairs = 0.0_dp !! transforms there and back, in units of one pair on the finest grid
    end type sequence_answer
@@ -193,25 +192,13 @@ contains
          call solve_on_grid(half_space, h, residual, most, answer%state, progress)
          answer%transform_pairs = answer%transform_pairs + half_space%transform_pairs
       end if
-      if (.not. answer%state%interrupted) answer%value(elastic_energy) = energy_of(answer%state, h)
-      answer%grids = answer%grids + 1
+      ! The energy per area [p* Delta] is the mean of p u/2 with u = gap - h + approach.
+      associate (state => answer%state)
+         if (.not. state%interrupted) answer%value(elastic_energy) = 0.5_dp*state%slab%sum_of( &
+            state%pressure*(state%gap - h + state%approach))/product(real(state%slab%points, dp))
+      end associate
       answer%iterations = answer%iterations + answer%state%iterations
    end subroutine solve_level
-
-   !> The elastic energy per area [p* Delta], the mean of p u/2 with u = gap - h + approach.
-   real(dp) function energy_of(state, undeformed_gap)
-      type(grid_state), intent(in) :: state          !! solution with its gap
-      real(dp), intent(in) :: undeformed_gap(:, :)   !! h [Delta], shape of the gap
-
-      integer :: j
-      real(dp) :: column_sums(1, size(undeformed_gap, 2))
-
-      do j = 1, size(undeformed_gap, 2)
-         column_sums(1, j) = dot_product(state%pressure(:, j), &
-                                         state%gap(:, j) - undeformed_gap(:, j) + state%approach)
-      end do
-      energy_of = 0.5_dp*sum(state%slab%column_totals(column_sums))/product(real(state%slab%points, dp))
-   end function energy_of
 
    !> Computes mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error
    !> estimates (C14) to (C17b), (C22b), (C22c). With a hardness the area is P/H at least, the smallest that carries
@@ -225,7 +212,7 @@ contains
       logical, intent(in) :: estimated        !! whether errors are estimated; otherwise they are unknown
       type(sequence_answer), intent(inout) :: answer
 
-      real(dp) :: area, bend, capped_errors(3), capped_values(3), errors(3), shown(3)   ! shown: by `abrupt_edges`
+      real(dp) :: area, bend, capped_errors(3), errors(3), shown(3)   ! shown: by `abrupt_edges`
       real(dp) :: deepest   ! mean indentation if all points are pressed down to the lowest one [Delta]
       real(dp) :: below_hardness   ! largest pressure of the grid over the hardness, at most 1
       logical :: has_corners, resolved
@@ -312,8 +299,8 @@ contains
       answer%error(area_at_hardness) = capped_errors(2)
       ! With free edges the errors are those of the approach.
       if (surface%has_free_edges) return
-      capped_values = [answer%state%residual_indentation/deepest, 1.0_dp - area, 0.0_dp]
-      capped_errors = max(capped_errors, implied_errors(surface%dimension, capped_values, capped_errors(2), 0.0_dp))
+      capped_errors = max(capped_errors, implied_errors(surface%dimension, [ &
+         answer%state%residual_indentation/deepest, 1.0_dp - area, 0.0_dp], capped_errors(2), 0.0_dp))
       answer%error(approach) = scaled(capped_errors(1), deepest)
    end subroutine measure_level
 

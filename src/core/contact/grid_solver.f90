@@ -52,7 +52,6 @@ contains
       integer :: j
 
       last_residual = huge(1.0_dp)
-      state%corrections = 0
       state%iterations = 0
       do
          do j = 1, size(touched)
@@ -73,7 +72,7 @@ contains
          ! A start from a load near by may have an allowed residual at once. It is corrected nevertheless, unless the
          ! residual is as small as a correction would make it: otherwise a search for a load would see its error.
          start_part = 1.0_dp
-         if (state%starts_near .and. state%corrections == 0) start_part = correction_margin
+         if (state%starts_near .and. last_residual >= huge(last_residual)) start_part = correction_margin
          state%converged = state%residual <= start_part*allowed .or. &
                            (state%residual <= most_rounding .and. 2*state%residual > last_residual)
          last_residual = state%residual

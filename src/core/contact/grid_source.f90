@@ -31,7 +31,6 @@ module wavycon_grid_source
    type, extends(field_source) :: grid_source
       type(grid_edge), allocatable :: edge    !! pressures and gaps at the points; allocated after take_edge
       logical :: rotated = .false.            !! whether the grid covers the smaller cell, rotated by 45 degrees
-      real(dp) :: residual_indentation = 0.0_dp   !! mean overlap where p = H [Delta] (C22)
       type(change_history) :: history         !! main values on the last three grids
    contains
       procedure :: take_edge, fields, contact_contours, stresses, derivatives, collect
@@ -40,7 +39,7 @@ module wavycon_grid_source
    end type grid_source
 
    !> Number of values in the array of pack_source before those of the field.
-   integer, parameter :: own_values = 18
+   integer, parameter :: own_values = 17
 
 contains
 
@@ -175,7 +174,6 @@ contains
       if (self%rotated) pressure = in_other_angles(pressure, to_difference_angles)
       allocate (own)
       call start_grid_fields(own%fields, surface, self%edge, self%record%value(approach), self%rotated)
-      own%repeats = .not. surface%has_free_edges
       call start_series_stress_fields(own%series_stress_fields, surface, pressure, &
                                       self%record%pbar_over_pstar/cells**2, or_nan(error), is_sampled=.true., &
                                       approach_error=of_approach, crossings=crossings, edge_pressure=edge_pressure)
@@ -211,10 +209,10 @@ contains
       end if
    end subroutine derivatives
 
-   !> Packs the source into one array for a checkpoint: (1) the residual indentation, (2:3) the stiffness of `edge`,
-   !> (4:5) the points along x and y, (6) the first column of this rank, (7:9) whether the cell is rotated, the grid
-   !> covers a quarter of the cell, and pressures are uniform on cells, as 1 or 0, (10:18) `history`, and then the
-   !> pressures and gaps in the columns of this rank.
+   !> Packs the source into one array for a checkpoint: (1:2) the stiffness of `edge`, (3:4) the points along x and y,
+   !> (5) the first column of this rank, (6:8) whether the cell is rotated, the grid covers a quarter of the cell, and
+   !> pressures are uniform on cells, as 1 or 0, (9:17) `history`, and then the pressures and gaps in the columns of
+   !> this rank.
    pure subroutine pack_source(self, values)
       class(grid_source), intent(in) :: self
       real(dp), allocatable, intent(out) :: values(:)   !! not allocated if there is not enough memory
@@ -226,7 +224,7 @@ contains
          rows = size(edge%pressure_or_gap, 1)
          allocate (values(own_values + size(edge%pressure_or_gap, kind=int64)), stat=status)
          if (status /= 0) return
-         values(:own_values) = [self%residual_indentation, edge%stiffness, real([slab%points, slab%first], dp), &
+         values(:own_values) = [edge%stiffness, real([slab%points, slab%first], dp), &
                                 merge(1.0_dp, 0.0_dp, [self%rotated, edge%even, edge%of_cells]), &
                                 self%history%values, self%history%before]
          do j = 1, size(edge%pressure_or_gap, 2)
@@ -250,17 +248,16 @@ contains
       type(grid_edge), allocatable :: edge
       type(grid_slab) :: slab
 
-      points = nint(values(4:5))
-      first = nint(values(6))
+      points = nint(values(3:4))
+      first = nint(values(5))
       rows = points(1)
       if (.not. allocated(self%edge)) then
-         self%residual_indentation = values(1)
-         self%rotated = values(7) > 0.0_dp
-         self%history = change_history(values(10:12), reshape(values(13:18), [3, 2]))
+         self%rotated = values(6) > 0.0_dp
+         self%history = change_history(values(9:11), reshape(values(12:17), [3, 2]))
          call slab%start(points, whole)
          allocate (field(rows, slab%columns()), source=huge(1.0_dp))
          allocate (edge)
-         call make_grid_edge(edge, field, values(8) > 0.0_dp, values(2:3), slab, values(9) > 0.0_dp)
+         call make_grid_edge(edge, field, values(7) > 0.0_dp, values(1:2), slab, values(8) > 0.0_dp)
          call self%take_edge(edge)
       end if
       associate (own => self%edge%slab, field => self%edge%pressure_or_gap)

@@ -22,7 +22,6 @@ module wavycon_grid_state
       !> (C9): root mean square of the violated conditions on the gap, over G. During a solution [Delta], not over G.
       real(dp) :: residual = huge(1.0_dp)
       logical :: starts_near = .false.          !! whether the start is the solution at a load near by
-      integer :: corrections = 0                !! number of corrections of the pressure
       integer :: iterations = 0                 !! number of iterations of all corrections
       logical :: converged = .false.            !! whether the residual is within the tolerance
       logical :: interrupted = .false.          !! whether `progress` stopped the solver; the gap is then not allocated

@@ -15,7 +15,6 @@ module wavycon_grid_stress_fields
 
    type, extends(series_stress_fields) :: grid_stress_fields
       type(grid_fields) :: fields     !! pressures between the points of the grid
-      logical :: repeats = .true.     !! whether the cell is repeated: not with free edges
    contains
       procedure :: on_line, on_plane
       procedure, private :: add_ringing
@@ -88,7 +87,8 @@ contains
       do i = 1, size(error)
          if (ieee_is_nan(error(i))) cycle
          ! Beyond a map with free edges the fields are those of its mirror images.
-         if (.not. self%repeats .and. any(abs(places(:self%dimension, i) - 0.5_dp*pi) > 0.5_dp*pi)) pressure(i) = 0.0_dp
+         if (self%fields%surface%has_free_edges .and. &
+             any(abs(places(:self%dimension, i) - 0.5_dp*pi) > 0.5_dp*pi)) pressure(i) = 0.0_dp
          error(i) = of_pressure + hypot(error(i) - of_pressure, self%ringing_left(depth)*(vertical(i) + pressure(i)))
       end do
    end subroutine add_ringing

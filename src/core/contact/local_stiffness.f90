@@ -5,7 +5,7 @@
 !> that the nearest neighbours have most of it, and a stencil of a few steps is close to S^-1.
 module wavycon_local_stiffness
    use wavycon_compliance_operator, only: compliance_operator
-   use wavycon_contact_region, only: contact_region, longest_chunk
+   use wavycon_contact_region, only: contact_region
    use wavycon_contact_tuning, only: stencil_reach
    use wavycon_grid_convolution_dp, only: grid_convolution
    use wavycon_grid_points, only: image_of_point
@@ -82,8 +82,7 @@ contains
       real(sp), intent(inout) :: pressure(:, :)          !! does not change elsewhere, shape (M, slab%columns())
 
       integer, parameter :: r = stencil_reach
-      real(sp) :: values(longest_chunk)
-      integer :: c, k
+      integer :: k
 
       associate (m => slab%points(1), n => slab%columns(), field => self%field)
          do k = 1, r
@@ -91,11 +90,7 @@ contains
             field(m + k, 1:n) = field(image_of_point(m + k, m, self%even), 1:n)
          end do
          if (slab%points(2) > 1) call slab%halo(field(:, 1:n), self%even, field(:, 1 - r:0), field(:, n + 1:n + r))
-         !$omp parallel do num_threads(region%threads) private(values)
-         do c = 1, region%chunks
-            call region%convolve_chunk(c, self%weights, field, values)
-            call region%put_chunk(c, values, pressure)
-         end do
+         call region%convolve(self%weights, field, pressure)
       end associate
    end subroutine apply
 

@@ -46,48 +46,34 @@ module wavycon_multilevel_preconditioner
 
 contains
 
-   !> Allocates a grid and all coarser ones, without any point in contact.
-   subroutine start(self, points, even, kernel, frequency)
-      class(multilevel_preconditioner), intent(out) :: self
-      integer, intent(in) :: points(2)   !! M, N of the grid; N = 1 in 1-D
-      logical, intent(in) :: even        !! whether the points are those of a quarter of an even field's cell
+   !> Allocates a grid and, if it can be halved, all coarser ones, without any point in contact.
+   recursive subroutine start(self, slab, even, kernel, frequency)
+      class(multilevel_preconditioner), intent(inout) :: self   !! with its default values, but for `is_balance`
+      type(grid_slab), intent(in) :: slab   !! columns of the grid that this process has; one column in 1-D
+      logical, intent(in) :: even           !! whether the points are those of a quarter of an even field's cell
       type(wave_stiffness), intent(in) :: kernel   !! of the bodies
       !> Of the wave whose wave number is one over a step, > 0: one over 2 pi steps, in the kernel's unit.
       real(dp), intent(in) :: frequency
 
-      type(grid_slab) :: slab
-
-      call slab%start(points)
-      call start_on(slab, even, kernel, frequency, self)
-   end subroutine start
-
-   !> Allocates a grid on a slab and, if it can be halved, all coarser ones.
-   recursive subroutine start_on(slab, even, kernel, frequency, grid)
-      type(grid_slab), intent(in) :: slab
-      logical, intent(in) :: even
-      type(wave_stiffness), intent(in) :: kernel
-      real(dp), intent(in) :: frequency   !! as in `start`, with a step of this grid
-      class(multilevel_preconditioner), intent(inout) :: grid
-
       real(sp) :: order   ! n_j
 
-      grid%even = even
-      grid%slab = slab
+      self%even = even
+      self%slab = slab
       order = real(kernel%order(frequency), sp)
-      grid%reach = max(0.0_sp, -order)
-      if (grid%is_balance) then
-         grid%own = -min(1.0_sp, max(0.0_sp, 0.5_sp*order))
-         grid%taken = [1.0_sp + grid%own, -grid%own]
-         grid%filled = [1.0_sp, 0.0_sp]
+      self%reach = max(0.0_sp, -order)
+      if (self%is_balance) then
+         self%own = -min(1.0_sp, max(0.0_sp, 0.5_sp*order))
+         self%taken = [1.0_sp + self%own, -self%own]
+         self%filled = [1.0_sp, 0.0_sp]
       end if
-      allocate (grid%contact(slab%points(1), slab%columns()), source=0.0_sp)
+      allocate (self%contact(slab%points(1), slab%columns()), source=0.0_sp)
       if (.not. all((mod(slab%points, 2) == 0 .and. slab%points >= 2*least_points) .or. slab%points == 1)) return
-      grid%averaged = slab%coarser()
-      allocate (grid%coarser)
-      grid%coarser%is_balance = grid%is_balance .or. order > 0.0_sp
-      call start_on(distributed_or_whole(grid%averaged), even, kernel, 0.5_dp*frequency, grid%coarser)
-      allocate (grid%values(grid%averaged%points(1), 0:grid%coarser%slab%columns() + 1))
-   end subroutine start_on
+      self%averaged = slab%coarser()
+      allocate (self%coarser)
+      self%coarser%is_balance = self%is_balance .or. order > 0.0_sp
+      call self%coarser%start(distributed_or_whole(self%averaged), even, kernel, 0.5_dp*frequency)
+      allocate (self%values(self%averaged%points(1), 0:self%coarser%slab%columns() + 1))
+   end subroutine start
 
    !> The columns of a coarser grid that this process has: those that are means of its columns of the finer grid, or all
    !> columns. It has all if the grid is small, or if some means of the next grid would need columns of two processes.
@@ -103,8 +89,6 @@ contains
    recursive subroutine average_contact(self)
       class(multilevel_preconditioner), intent(inout) :: self
 
-      real(dp) :: total(1)
-
       if (allocated(self%coarser)) then
          call average(self%contact, self%averaged, self%coarser%slab, self%coarser%contact)
          call self%coarser%average_contact()
@@ -112,9 +96,8 @@ contains
          self%factor = min(1.0_sp, self%decay*self%reach)
          if (self%coarser%is_balance) self%factor = 1.0_sp
       else
-         total = self%slab%column_totals(reshape(sum(real(self%contact, dp), dim=1), [1, self%slab%columns()]))
-         self%decay = real(min(1.0_dp, decay_alone &
-                                       + decay_growth*sqrt(total(1)/product(real(self%slab%points, dp)))), sp)
+         self%decay = real(min(1.0_dp, decay_alone + decay_growth*sqrt(self%slab%sum_of(real(self%contact, dp)) &
+                                                                       /product(real(self%slab%points, dp)))), sp)
       end if
    end subroutine average_contact
 
@@ -161,7 +144,8 @@ contains
       end if
    end subroutine collect
 
-   !> What a grid itself adds to J and J': the field, on the last grid over the contact, in balances times -b_j.
+   !> What a grid itself adds to J and J': the field, on the last grid over the part of each point's area that is in
+   !> contact, in balances times -b_j.
    subroutine keep_own(grid, field)
       class(multilevel_preconditioner), intent(in) :: grid
       real(sp), intent(inout), contiguous :: field(:, :)
@@ -169,21 +153,13 @@ contains
       if (grid%is_balance) then
          field = grid%own*field
       else if (.not. allocated(grid%coarser)) then
-         call normalise(grid%contact, field)
+         where (grid%contact > 0.0_sp)
+            field = field/grid%contact
+         elsewhere
+            field = 0.0_sp
+         end where
       end if
    end subroutine keep_own
-
-   !> Divides each value by the part of the point's area that is in contact. Points without contact get zero.
-   pure subroutine normalise(contact, values)
-      real(sp), intent(in), contiguous :: contact(:, :)
-      real(sp), intent(inout), contiguous :: values(:, :)
-
-      where (contact > 0.0_sp)
-         values = values/contact
-      elsewhere
-         values = 0.0_sp
-      end where
-   end subroutine normalise
 
    !> Applies R of (C4b), the means of two by two points. In 1-D the only column counts twice, here and in the following
    !> procedures.

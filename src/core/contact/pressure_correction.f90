@@ -102,7 +102,6 @@ contains
          end if
       end do
       call state%add_to(grid)
-      grid%corrections = grid%corrections + 1
       ! A correction without iterations changes the approach alone. It counts as one iteration, because otherwise the
       ! number of steps in `solve_on_grid` would not be limited.
       grid%iterations = grid%iterations + max(1, iterations)
@@ -130,7 +129,7 @@ contains
       field = 0.0_sp
       call state%put_residual(field)
       if (.not. allocated(extension%contact)) &
-         call extension%start(state%slab%points, half_space%even, half_space%kernel, half_space%frequency_of_step)
+         call extension%start(state%slab, half_space%even, half_space%kernel, half_space%frequency_of_step)
       if (state%contact_is_new) then
          !$omp parallel do num_threads(state%region%threads)
          do c = 1, state%region%chunks
@@ -324,7 +323,8 @@ contains
          allocate (after, source=state%change - real(step, dp)*direction)
          above = contact*(start + after)
          below = contact*(state%below_hardness - after)
-         shift = bounded_shift(state%slab, state%region%strip_places(), above, below, -state%sum_of(after))
+         shift = bounded_shift(state%slab, state%region%chunk(state%region%strip_chunk), above, below, &
+                               -state%sum_of(after))
          after = min(max(after + contact*shift, -real(start, dp)), real(state%below_hardness, dp))
          change = real(state%change - after, sp)
          ! With this addition rounding does not leave the pressure below H.

@@ -12,7 +12,6 @@ module wavycon_series_contact
    use wavycon_contact_solution, only: contact_solution
    use wavycon_contact_solver, only: contact_solver, solver_traits
    use wavycon_contact_tuning, only: lightest_start, most_points_to_continue
-   use wavycon_cosine_rows, only: add_cosine_rows
    use wavycon_dual_solver, only: dual_solver
    use wavycon_field_source, only: field_source
    use wavycon_fourier_series, only: fourier_series
@@ -105,7 +104,6 @@ contains
       self%series%terms = choose_terms(surface%dimension, options%harmonics, options%symmetry)
       self%problem = energy_problem(self%series%terms, options%constraint_points, options%symmetry, &
                                     surface%has_hardness())
-      call add_cosine_rows(self%problem, self%series%terms, options%constraint_points, options%symmetry)
    end subroutine start
 
    !> Solves a load by the quadratic programme and measures its series. With a hardness mean gap and approach follow

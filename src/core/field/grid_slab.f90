@@ -104,10 +104,9 @@ contains
 
       integer :: r
 
-      allocate (blocks(2, 0:ranks_at_work() - 1))
-      do r = 0, ranks_at_work() - 1
-         blocks(:, r) = [min(r*self%width, self%points(2)) + 1, min((r + 1)*self%width, self%points(2))]
-      end do
+      associate (ends => min([(r*self%width, r=0, ranks_at_work())], self%points(2)))
+         blocks = reshape([ends(:size(ends) - 1) + 1, ends(2:)], [2, size(ends) - 1], order=[2, 1])
+      end associate
    end function blocks
 
    !> The number of own columns.

@@ -29,7 +29,7 @@ module wavycon_grid_transform
       integer, private :: waves = 0     !! number of wave numbers in X that the points determine
       integer, private :: numbers = 0   !! real numbers for an element of the spectrum: cosine 1, complex wave 2
    contains
-      procedure :: start, new_series, series, sample, sample_waves, sum_along_y, sample_column
+      procedure :: start, new_series, series, sample, sample_waves, sum_along_y, sample_columns
    end type grid_transform
 
    !> Number of rows of the spectrum that are copied at a time, and of elements of each of them, so that copies use
@@ -52,10 +52,8 @@ contains
 
       self%points = points
       self%even = even
-      self%waves = points(1)
-      if (.not. even) self%waves = points(1)/2 + 1
-      self%numbers = 1
-      if (.not. even) self%numbers = 2
+      self%waves = merge(points(1), points(1)/2 + 1, even)
+      self%numbers = merge(1, 2, even)
       call self%slab%start(points, whole)
    end subroutine start
 
@@ -153,13 +151,9 @@ contains
       complex(c_double_complex), intent(inout), contiguous, target :: waves(:, :)
       real(dp), intent(out), contiguous :: field(:, :)          !! shape (M, N)
 
-      integer :: j
-
       call assert(all(shape(field) == self%points) .and. .not. self%even, 'the field is that of a whole cell')
       call self%sum_along_y(waves)
-      do j = 1, self%points(2)
-         call self%sample_column(waves(:, j), field(:, j))
-      end do
+      call self%sample_columns(waves, field)
    end subroutine sample_waves
 
    !> First half of `sample_waves`: replaces the waves by the sums over l, sum_l w_kl e^(ilY_j).
@@ -175,22 +169,17 @@ contains
       call transform_rows(.false., spectrum, forwards=.false.)
    end subroutine sum_along_y
 
-   !> Second half of `sample_waves`: computes the values in one column from the sums of that column.
-   subroutine sample_column(self, sums, values)
+   !> Second half of `sample_waves`: computes the values in some columns from the sums of these columns.
+   subroutine sample_columns(self, sums, values)
       class(grid_transform), intent(in) :: self
-      complex(c_double_complex), intent(in) :: sums(:)   !! sums over l, k = 0 .. M/2, shape (M/2 + 1)
-      real(dp), intent(out) :: values(:)                 !! values in the column, shape (M)
+      complex(c_double_complex), intent(in), contiguous, target :: sums(:, :)   !! k = 0 .. M/2, shape (M/2 + 1, any)
+      real(dp), intent(out) :: values(:, :)                                     !! shape (M, any)
 
-      complex(c_double_complex), allocatable :: column(:)
-      real(dp), allocatable :: aligned(:)
-      type(line_plan) :: plan
+      real(dp), pointer :: spectrum(:, :)
 
-      allocate (column, source=sums)
-      allocate (aligned(self%points(1)))
-      plan = plan_of_line(waves_to_real, self%points(1), dp)
-      call plan%execute(plan%plan, column, aligned)
-      values = aligned
-   end subroutine sample_column
+      call c_f_pointer(c_loc(sums), spectrum, [2*size(sums, 1), size(sums, 2)])
+      call waves_to_columns(self, size(sums, 1), spectrum, values)
+   end subroutine sample_columns
 
    !> Transforms columns along x: sum_i f_i e^(-ikX_i), k = 0 .. M/2, or twice sum_i f_i cos kX_i, k = 0 .. M - 1.
    subroutine columns_to_waves(self, field, spectrum)

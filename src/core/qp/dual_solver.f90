@@ -107,7 +107,8 @@ contains
       real(dp) :: x(size(problem%linear)), multipliers(size(problem%linear)), slacks(size(problem%bounds))
       real(dp) :: slack, slack_terms, kept_slack
       real(dp), allocatable :: normals(:, :)       ! those of the candidates
-      integer :: candidates(size(problem%bounds)), listed, i, n, place, violated, small_steps
+      integer, allocatable :: candidates(:)
+      integer :: listed, i, n, place, violated, small_steps
       logical :: is_active
 
       n = size(x)
@@ -139,13 +140,10 @@ contains
             if (violated == 0) return
             slack = slacks(violated)
             kept_slack = candidate_part*slack
-            listed = 0
-            do i = 1, size(slacks)
-               if (slacks(i) > kept_slack .or. i == violated) cycle
-               listed = listed + 1
-               candidates(listed) = i
-            end do
-            normals = problem%normals(:, candidates(:listed))
+            slacks(violated) = 0.0_dp
+            candidates = pack([(i, i=1, size(slacks))], slacks <= kept_slack)
+            listed = size(candidates)
+            normals = problem%normals(:, candidates)
          end if
          slack_terms = abs(problem%bounds(violated)) + maxval(abs(x))*maxval(abs(problem%normals(:, violated)))
          if (slack >= -zero_slack*slack_terms) return

@@ -4,7 +4,6 @@
 !> It takes some 20 to 40 steps, whatever the load, where the dual method takes thousands of exchanges. Its multipliers
 !> have few digits; so they are only a start for the dual method.
 module wavycon_interior_point
-   use wavycon_cosine_rows, only: cosine_rows
    use wavycon_gsl, only: ascending_order
    use wavycon_kinds, only: dp
    use wavycon_lapack, only: dgemv, dpotrf, dtrsv
@@ -52,35 +51,32 @@ contains
       x = 0.0_dp
       slack = -problem%bounds
       multipliers = 1.0_dp/m
-      select type (rows => problem%rows)
-      class is (cosine_rows)
-         do steps = 0, most_steps - 1
-            call rows%squares(multipliers/slack, matrix)
-            do i = 1, n
-               matrix(i, i) = matrix(i, i) + problem%hessian(i)
-            end do
-            call dpotrf('L', n, matrix, n, info)
-            if (info /= 0) exit
-            products = slack*multipliers
-            mean = sum(products)/m
-            ! First towards products of 0; then, with what that says of their curvature, towards equal ones.
-            do pass = 1, 2
-               x_change = problem%linear - problem%hessian*x
-               call dgemv('N', n, m, 1.0_dp, problem%normals, n, multipliers - products/slack, 1, 1.0_dp, x_change, 1)
-               call dtrsv('L', 'N', 'N', n, matrix, n, x_change, 1)
-               call dtrsv('L', 'T', 'N', n, matrix, n, x_change, 1)
-               call rows%of(x_change, slack_change)
-               change = -(products + multipliers*slack_change)/slack
-               step = 1.0_dp/max(1.0_dp, maxval(-slack_change/slack), maxval(-change/multipliers))
-               if (pass == 1) products = products + slack_change*change - mean* &
-                  (dot_product(slack + step*slack_change, multipliers + step*change)/(m*mean))**3
-            end do
-            step = step_share*step
-            x = x + step*x_change
-            slack = slack + step*slack_change
-            multipliers = multipliers + step*change
+      do steps = 0, most_steps - 1
+         call problem%rows%squares(multipliers/slack, matrix)
+         do i = 1, n
+            matrix(i, i) = matrix(i, i) + problem%hessian(i)
          end do
-      end select
+         call dpotrf('L', n, matrix, n, info)
+         if (info /= 0) exit
+         products = slack*multipliers
+         mean = sum(products)/m
+         ! First towards products of 0; then, with what that says of their curvature, towards equal ones.
+         do pass = 1, 2
+            x_change = problem%linear - problem%hessian*x
+            call dgemv('N', n, m, 1.0_dp, problem%normals, n, multipliers - products/slack, 1, 1.0_dp, x_change, 1)
+            call dtrsv('L', 'N', 'N', n, matrix, n, x_change, 1)
+            call dtrsv('L', 'T', 'N', n, matrix, n, x_change, 1)
+            call problem%rows%of(x_change, slack_change)
+            change = -(products + multipliers*slack_change)/slack
+            step = 1.0_dp/max(1.0_dp, maxval(-slack_change/slack), maxval(-change/multipliers))
+            if (pass == 1) products = products + slack_change*change - mean* &
+               (dot_product(slack + step*slack_change, multipliers + step*change)/(m*mean))**3
+         end do
+         step = step_share*step
+         x = x + step*x_change
+         slack = slack + step*slack_change
+         multipliers = multipliers + step*change
+      end do
       list = ascending_order(slack/multipliers)
       list = list(:count(multipliers > likely_ratio*slack))
    end subroutine likely_active

@@ -211,7 +211,7 @@ contains
 
       complex(dp), allocatable :: spectra(:, :, :)
       real(dp) :: here(6), largest(2), mean(6), shear
-      real(dp), allocatable :: above(:), below(:), squares(:), values(:, :)
+      real(dp), allocatable :: squares(:), sums(:, :), values(:, :)   ! sums: those at Y and at -Y
       type(grid_transform) :: plane
       integer :: i, j, number
 
@@ -225,20 +225,22 @@ contains
       do i = 1, number
          call plane%sum_along_y(spectra(:, :, i))
       end do
-      allocate (above(0:points(1) - 1), below(0:points(1) - 1), squares(first(1):last(1)))
+      allocate (sums(0:points(1) - 1, 2), squares(first(1):last(1)))
       allocate (values(0:points(1) - 1, 5), source=0.0_dp)
       largest = -1.0_dp
       do j = first(2), last(2)
          do i = 1, number
-            call plane%sample_column(spectra(:, j, i), values(:, i))
+            call plane%sample_columns(spectra(:, j:j, i), values(:, i:i))
          end do
          if (self%pressure%is_even()) then
             ! The four fields of the sum differ in their symmetry: each follows from the sum at +-X and +-Y.
-            above = values(:, 1)
-            call plane%sample_column(spectra(:, modulo(-j, points(2)), 1), below)
+            sums(:, 1) = values(:, 1)
+            associate (l => modulo(-j, points(2)))
+               call plane%sample_columns(spectra(:, l:l, 1), sums(:, 2:2))
+            end associate
             do i = first(1), last(1)
-               associate (a => above(i), b => above(modulo(-i, points(1))), c => below(i), &
-                          d => below(modulo(-i, points(1))))
+               associate (a => sums(i, 1), b => sums(modulo(-i, points(1)), 1), c => sums(i, 2), &
+                          d => sums(modulo(-i, points(1)), 2))
                   values(i, [1, 3, 4, 5]) = 0.25_dp*[a + b + c + d, a - b - c + d, a - b + c - d, a + b - c - d]
                end associate
             end do

@@ -213,7 +213,7 @@ contains
          results%traits = results%solver%traits()
          results%sharing = choose_sharing(results%traits, size(scene%target), for_tables, &
                                           any(scene%loads_by == [by_yield, by_percolation]) .or. &
-                                          allocated(scene%interface_setting))
+                                          allocated(scene%interface_setting) .or. scene%surface%has_free_edges)
       end associate
       deallocate (results%scene%surface)
       if (results%sharing%kind /= distributed_grids) &

@@ -47,12 +47,12 @@ module wavycon_work_sharing
 contains
 
    !> Decides how the ranks share the work. The decision depends only on the deck and on the number of ranks.
-   type(work_sharing) function choose_sharing(traits, loads, need_fields, need_stresses) result(sharing)
+   type(work_sharing) function choose_sharing(traits, loads, need_fields, need_whole_grids) result(sharing)
       type(solver_traits), intent(in) :: traits     !! traits of the started solver
       integer, intent(in) :: loads                  !! number of loads
       logical, intent(in) :: need_fields            !! whether tables need fields, edges or details of all loads
-      !> Whether loads are found by stresses or spots, or the interface is computed.
-      logical, intent(in) :: need_stresses
+      !> Whether loads are found by stresses or spots, the interface is computed, or the surface has free edges.
+      logical, intent(in) :: need_whole_grids
 
       logical :: can_distribute_loads, is_large
       type(grid_slab) :: slab
@@ -64,7 +64,7 @@ contains
       call slab%start(max(traits%finest_grid, 1))
       can_distribute_loads = loads >= sharing%ranks .and. .not. need_fields
       is_large = product(int(traits%given_grid, int64)) >= large_grid
-      if (slab%is_distributed .and. .not. (need_stresses .or. traits%needs_whole_grids) .and. &
+      if (slab%is_distributed .and. .not. need_whole_grids .and. &
           (is_large .or. .not. can_distribute_loads)) then
          sharing%kind = distributed_grids
       else if (can_distribute_loads) then

@@ -2,21 +2,16 @@
 !> side these take of the order of n N^2 operations, the product with the matrix of the constraints n^2 N^2. And the
 !> matrix of weighted sums of squares of the constraints, by such sums too.
 module wavycon_cosine_rows
-   use wavycon_constraint_points, only: choose_points
    use wavycon_cosine_table, only: cosine_table
    use wavycon_fourier_series, only: fourier_series
    use wavycon_fourier_terms, only: fourier_terms
    use wavycon_kinds, only: dp
-   use wavycon_qp_problem, only: qp_problem, row_products
    implicit none (type, external)
    private
 
-   public :: add_cosine_rows, cosine_rows
+   public :: cosine_rows
 
-   !> With more elements the products with the matrix of the constraints take longer than these sums.
-   integer, parameter :: largest_matrix = 500000
-
-   type, extends(row_products) :: cosine_rows
+   type :: cosine_rows
       type(fourier_terms) :: terms
       integer :: points_per_side = 0          !! N
       integer, allocatable :: k(:), l(:)      !! the points as chosen by `choose_points`, shape (m)
@@ -25,20 +20,6 @@ module wavycon_cosine_rows
    end type cosine_rows
 
 contains
-
-   !> Gives a programme of many terms and points these sums as its way to Cx.
-   pure subroutine add_cosine_rows(problem, terms, points_per_side, symmetry)
-      type(qp_problem), intent(inout) :: problem   !! of energy_problem
-      type(fourier_terms), intent(in) :: terms
-      integer, intent(in) :: points_per_side       !! N >= 2 constraint points on [0, pi]
-      integer, intent(in) :: symmetry              !! that of the terms
-
-      integer, allocatable :: k(:), l(:)
-
-      call choose_points(terms%dimension, points_per_side, symmetry, k, l)
-      if (terms%dimension == 2 .and. terms%count*size(k) > largest_matrix) &
-         allocate (problem%rows, source=cosine_rows(terms, points_per_side, k, l))
-   end subroutine add_cosine_rows
 
    !> sum_k x_k t_k at the points; the same with the opposite sign follows if `values` is twice as long.
    subroutine of(self, x, values)
