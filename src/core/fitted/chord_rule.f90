@@ -55,7 +55,7 @@ contains
    subroutine start_chord_rule(rule, pool, basis, shape_terms, angles, points)
       type(chord_rule), intent(out) :: rule
       logical, intent(in) :: pool                      !! true: a pool's gap; false: a spot's pressure
-      type(disc_polynomials), intent(in) :: basis      !! its power is `edge_power` of wavycon_fitted_function
+      type(disc_polynomials), intent(in) :: basis      !! that of the fitted function
       integer, intent(in) :: shape_terms               !! K >= 1
       integer, intent(in) :: angles                    !! number m of chords, >= 1
       integer, intent(in) :: points                    !! number n of points on a chord, >= 2

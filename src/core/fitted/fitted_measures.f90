@@ -24,12 +24,13 @@ module wavycon_fitted_measures
 contains
 
    !> Computes all measures of a solution.
-   subroutine measure_fitted_function(equations, lattice, now, measures, reference)
+   subroutine measure_fitted_function(equations, lattice, now, measures, reference, scale)
       type(contact_equations), intent(in) :: equations     !! started for fitted functions like `now`
       type(wave_lattice), intent(in) :: lattice
       type(fitted_function), intent(inout) :: now          !! the solution; the load of an adhesive spot is set
       real(dp), intent(out) :: measures(all_measures)
       real(dp), intent(out) :: reference(all_measures)
+      real(dp), intent(out) :: scale(all_measures)         !! what the accuracy is relative to
          !! what errors are relative to: the measure; for loads and pressures with adhesion plus the tension at the edge
 
       real(dp) :: at_edge
@@ -53,6 +54,13 @@ contains
             reference([peak_measure, load_measure, centre_measure]) = abs(measures([peak_measure, load_measure, &
                centre_measure])) + [at_edge, of_load, at_edge]
          end associate
+      scale = reference
+      ! Fields need the gap at a trough within the accuracy times Delta. Near full contact it is a small part of Delta.
+      scale(centre_measure) = max(reference(centre_measure), 1.0_dp)
+      ! The area is given and has no error. Under tension gap and load may be larger than Delta and the closing
+      ! pressure: their accuracy is relative to these.
+      if (now%work > 0.0_dp) scale([gap_measure, area_measure, peak_measure, load_measure]) = [1.0_dp, huge(1.0_dp), &
+         max(reference(peak_measure), lattice%closing_pressure), lattice%closing_pressure]
       end if
 
    contains

@@ -9,7 +9,7 @@ module wavycon_gauss_newton
    implicit none (type, external)
    private
 
-   public :: add_step, change_with_area, changes_with_load, newton_steps
+   public :: add_step, changes_with_load, least_squares_step, newton_steps
 
    !> The iteration, and the numbers of its last step.
    type :: newton_steps
@@ -149,19 +149,6 @@ contains
       load_change = [dot_product(equations%load_row, change), &
                      dot_product(equations%load_row, change_of_change) + row_change]
    end subroutine changes_with_load
-
-   !> The derivatives of the unknowns by the area of an adhesive spot or pool, README.md (F70), from the matrix of the
-   !> last step.
-   subroutine change_with_area(equations, now, change)
-      type(contact_equations), intent(in) :: equations     !! as the last step left them
-      type(fitted_function), intent(in) :: now             !! the solution, with adhesion
-      real(dp), intent(out) :: change(:)                   !! shape (unknowns)
-
-      logical :: finite   ! not used: the last step was finite
-      real(dp) :: misfit
-
-      call least_squares_step(equations, now, 0*equations%residual, 1.0_dp, change, misfit, finite)
-   end subroutine change_with_area
 
    !> Adds a step to the unknowns of a fitted function: coefficients, approach or load, and shape.
    pure subroutine add_step(now, step)
