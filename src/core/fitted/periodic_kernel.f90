@@ -61,7 +61,7 @@ contains
    !> Fits both kernels of a lattice.
    subroutine start_periodic_kernels(rows, kernels)
       type(row_lattice), intent(in) :: rows
-      type(periodic_kernel), intent(out) :: kernels(2)     !! Gp and its Laplacian
+      type(periodic_kernel), intent(out) :: kernels(3)     !! Gp, its Laplacian, and the whole of the latter
 
       real(dp), dimension(nodes, nodes) :: inverse, x, y
       real(dp) :: half(2), values(nodes, nodes, 2)
@@ -89,6 +89,8 @@ contains
             call kernel%fit%set(values(:, :, i:i))
             call kernel%fit%set_powers(rounding(i))
          end associate
+      kernels(3) = kernels(2)
+      kernels(3)%whole = .true.
       end do
    end subroutine start_periodic_kernels
 
