@@ -172,6 +172,7 @@ contains
          allocate (now%shape%b(0:1))
          now%shape%b(:) = [radius, 0.0_dp]
          if (now%shape%fold == 2) now%shape%b(1) = radius*(1.0_dp - ratio)/(1.0_dp + ratio)
+         ! The power of 1 - |w|^2 at the edge: see wavycon_fitted_function.
          call start_disc_polynomials(now%basis, now%shape%fold, start_degree, &
                                      merge(1.5_dp, 0.5_dp, pool) - merge(1.0_dp, 0.0_dp, adhesive))
          allocate (now%c(now%basis%terms), source=0.0_dp)

@@ -37,7 +37,6 @@ module wavycon_periodic_kernel
       logical :: whole = .false.                   !! whether the term of the origin is included
    contains
       procedure :: evaluate
-      procedure, private :: add_points
    end type periodic_kernel
 
    !> Number of nodes of the fit in the square of either coordinate. The first term left out is below rounding.
@@ -89,9 +88,9 @@ contains
             call kernel%fit%set(values(:, :, i:i))
             call kernel%fit%set_powers(rounding(i))
          end associate
+      end do
       kernels(3) = kernels(2)
       kernels(3)%whole = .true.
-      end do
    end subroutine start_periodic_kernels
 
    !> The smooth part, which is the kernel less the origin's term 1/r^power, or the whole kernel, and the gradient if
@@ -119,7 +118,7 @@ contains
             if (present(slope_x)) slope_x = 0.0_dp
             if (present(slope_x)) slope_y = 0.0_dp
          end if
-         call self%add_points(n, xr, yr, value, slope_x, slope_y)
+         call add_points(self, n, xr, yr, value, slope_x, slope_y)
          if (.not. (moved .or. self%whole)) return
          ! The origin's term is taken out at the position itself. At the reduced position, which `evaluate_even` takes,
          ! it is put back. For most positions both are the same.
