@@ -139,11 +139,20 @@ contains
          block
             complex(dp), dimension(n) :: density, difference, step, w
             real(dp) :: analytic(n, 2), differences(n, 2, ubound(solution%shape%b, 1))
-            real(dp), dimension(n) :: at_t, root, t
+            real(dp), dimension(n) :: at_t, eta, root, sigma, t   ! at_t: weights in the integral over t
             complex(dp) :: kernel
             integer :: k, source
 
-            call place_points(along, self%rules(of_ray), weight, t, root, at_t)
+            associate (alpha => along%alpha, length => along%length, first => along%first, last => along%last)
+               eta = first + 0.5_dp*(last - first)*(1.0_dp + self%rules(of_ray)%node)
+               ! sigma = r + width sinh(eta), written without cancellation next to w_0.
+               sigma = 2*along%width*cosh(0.5_dp*(eta + first))*sinh(0.5_dp*(eta - first))
+               root = along%half*merge(sin(alpha + sigma), sin(length - sigma), alpha < length)
+               t = 2*along%half*sin(0.5_dp*sigma) &
+                  *merge(sin(alpha + 0.5_dp*sigma), sin(length - 0.5_dp*sigma), alpha < length)
+               ! dt = root dsigma.
+               at_t = weight*0.5_dp*(last - first)*self%rules(of_ray)%weight*along%width*cosh(eta)*root
+            end associate
             step = t*direction
             w = origin + step
             call solution%shape%find_differences(n, origin, w, analytic, differences)
@@ -219,27 +228,6 @@ contains
       end function ray_from
 
    end subroutine add_at
-
-   !> The points of a Gauss rule in eta on a ray.
-   pure subroutine place_points(along, rule, weight, t, root, at_t)
-      type(ray), intent(in) :: along
-      type(gauss_rule), intent(in) :: rule
-      real(dp), intent(in) :: weight                                  !! weight of the ray
-      real(dp), dimension(size(rule%node)), intent(out) :: t, root    !! distances from w_0; roots of 1 - |w|^2
-      real(dp), intent(out) :: at_t(size(rule%node))                  !! weights of the points in the integral over t
-
-      real(dp), dimension(size(rule%node)) :: eta, sigma
-
-      associate (alpha => along%alpha, length => along%length, first => along%first, last => along%last)
-         eta = first + 0.5_dp*(last - first)*(1.0_dp + rule%node)
-         ! sigma = r + width sinh(eta), written without cancellation next to w_0.
-         sigma = 2*along%width*cosh(0.5_dp*(eta + first))*sinh(0.5_dp*(eta - first))
-         root = along%half*merge(sin(alpha + sigma), sin(length - sigma), alpha < length)
-         t = 2*along%half*sin(0.5_dp*sigma)*merge(sin(alpha + 0.5_dp*sigma), sin(length - 0.5_dp*sigma), alpha < length)
-         ! dt = root dsigma.
-         at_t = weight*0.5_dp*(last - first)*rule%weight*along%width*cosh(eta)*root
-      end associate
-   end subroutine place_points
 
    !> The number of the shortest Gauss rule with at least the given number of points, or of the longest rule. The rule
    !> is made if it is needed for the first time.
