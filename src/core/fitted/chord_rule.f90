@@ -45,7 +45,7 @@ module wavycon_chord_rule
       real(dp), allocatable :: difference(:, :, :)        !! q_(fold k - 1) of README.md (F27), shape (n m, 2, K)
       real(dp), allocatable :: power(:, :, :)             !! `terms` of linearise_slopes, shape (n m, 2, K)
    contains
-      procedure :: rows, place_points
+      procedure :: rows
    end type chord_rule
 
 contains
@@ -55,7 +55,7 @@ contains
    subroutine start_chord_rule(rule, pool, basis, shape_terms, angles, points)
       type(chord_rule), intent(out) :: rule
       logical, intent(in) :: pool                      !! true: a pool's gap; false: a spot's pressure
-      type(disc_polynomials), intent(in) :: basis      !! its power is `edge_power` of wavycon_fitted_function
+      type(disc_polynomials), intent(in) :: basis      !! that of the fitted function
       integer, intent(in) :: shape_terms               !! K >= 1
       integer, intent(in) :: angles                    !! number m of chords, >= 1
       integer, intent(in) :: points                    !! number n of points on a chord, >= 2
@@ -74,22 +74,17 @@ contains
       call gauss_jacobi(basis%power, basis%power, rule%node, rule%node_weight)
       if (rule%kernel_power == 1) return
       allocate (rule%gegenbauer(points, 0:points - 1))
-      associate (g => rule%gegenbauer, s => rule%node)
+      associate (g => rule%gegenbauer, s => rule%node, lambda => nint(rule%edge_power + 0.5_dp))
+         ! Gegenbauer's polynomials C^(lambda), times the nodes' weights.
          g(:, 0) = rule%node_weight
-         if (rule%edge_power > 1.0_dp) then
-            g(:, 1) = 4*s*g(:, 0)
-            do m = 2, points - 1
-               g(:, m) = (2*(m + 1)*s*g(:, m - 1) - (m + 2)*g(:, m - 2))/m
-            end do
+         g(:, 1) = 2*lambda*s*g(:, 0)
+         do m = 2, points - 1
+            g(:, m) = (2*(m + lambda - 1)*s*g(:, m - 1) - (m + 2*lambda - 2)*g(:, m - 2))/m
+         end do
+         if (lambda == 2) then
             g = 4*g
          else
-            g(:, 1) = 2*s*g(:, 0)
-            do m = 2, points - 1
-               g(:, m) = 2*s*g(:, m - 1) - g(:, m - 2)
-            end do
-            do m = 0, points - 1
-               g(:, m) = -2*(m + 1)*g(:, m)
-            end do
+            g = -2*spread([(m, m=1, points)], 1, points)*g
          end if
       end associate
    end subroutine start_chord_rule
@@ -109,12 +104,12 @@ contains
 
       real(dp), dimension(size(self%turn, 1), 2) :: analytic, q, slope, step, total
       real(dp), dimension(size(self%turn, 1)) :: analytic_square, density, f, f_slope, jacobian, weight
-      complex(dp) :: w(size(weight))
+      complex(dp) :: w(size(self%turn, 1))
       integer :: n, terms
 
       n = size(weight)
       terms = ubound(map%b, 1)
-      call self%place_points(target, n, w, weight)
+      call place_points()
       call basis%evaluate(n, w, self%values)
       call map%find_differences(n, target, w, analytic, self%difference)
       call map%linearise_slopes(n, w, self%power, step)
@@ -146,47 +141,44 @@ contains
       end associate
       call dgemv('T', 2*n, terms, -2.0_dp, self%power, 2*n, slope, 1, 0.0_dp, shape_row(1:), 1)
       call dgemv('T', 2*n, terms, -1.0_dp, self%difference, 2*n, total, 1, 1.0_dp, shape_row(1:), 1)
+
+   contains
+
+      !> Sets the points `w` of the rule for the target, chord after chord, and the weights of the integral dt dphi.
+      subroutine place_points()
+         real(dp) :: factor, half, middle, of_chord(size(self%node)), t(2)
+         integer :: i, j, k, points
+
+         points = size(self%node)
+         do i = 1, size(self%direction)
+            k = (i - 1)*points
+            associate (e => self%direction(i))
+               ! The chord's points are t = middle + half xi.
+               middle = -(target%re*e%re + target%im*e%im)
+               half = sqrt(max(1.0_dp - (target%re*e%im - target%im*e%re)**2, 0.0_dp))
+               do j = 1, points
+                  w(k + j) = target + (middle + half*self%node(j))*e
+               end do
+            end associate
+            of_chord = self%node_weight
+            if (self%kernel_power == 3) then
+               ! omega_j(xi_0), README.md (F32), by the recurrence of T_m(xi_0) from T_0 and T_1; with adhesion (F68),
+               ! by that of U_m(xi_0) from U_(-2) and U_(-1).
+               of_chord = 0.0_dp
+               t = [1.0_dp, -middle/half]
+               if (self%edge_power < 1.0_dp) t = [-1.0_dp, 0.0_dp]
+               do j = 0, points - 1
+                  t = [t(2), -2*middle/half*t(2) - t(1)]
+                  of_chord = of_chord + t(2)*self%gegenbauer(:, j)
+               end do
+            end if
+            ! A factor half^(2 beta + 1), or half^(2 beta - 1) for the finite part: 2 without adhesion, 0 with adhesion.
+            factor = pi/size(self%direction)
+            if (nint(2*self%edge_power) == self%kernel_power) factor = factor*half**2
+            weight(k + 1:k + points) = factor*of_chord
+         end do
+      end subroutine place_points
+
    end subroutine rows
-
-   !> Sets the points and weights of the rule for a target, chord after chord.
-   pure subroutine place_points(self, target, points, w, weight)
-      class(chord_rule), intent(in) :: self
-      complex(dp), intent(in) :: target            !! w_t
-      integer, intent(in) :: points                !! number of points on all chords, n m
-      complex(dp), intent(out) :: w(points)        !! points of the disc
-      real(dp), intent(out) :: weight(points)      !! weights of the integral dt dphi
-
-      real(dp) :: factor, half, middle, of_chord(size(self%node)), t(2)
-      integer :: i, j, k, n
-
-      n = size(self%node)
-      do i = 1, size(self%direction)
-         k = (i - 1)*n
-         associate (e => self%direction(i))
-            ! The chord's points are t = middle + half xi.
-            middle = -(target%re*e%re + target%im*e%im)
-            half = sqrt(max(1.0_dp - (target%re*e%im - target%im*e%re)**2, 0.0_dp))
-            do j = 1, n
-               w(k + j) = target + (middle + half*self%node(j))*e
-            end do
-         end associate
-         of_chord = self%node_weight
-         if (self%kernel_power == 3) then
-            ! omega_j(xi_0), README.md (F32), by the recurrence of T_m(xi_0) from T_0 and T_1; with adhesion (F68), by
-            ! that of U_m(xi_0) from U_(-2) and U_(-1).
-            of_chord = 0.0_dp
-            t = [1.0_dp, -middle/half]
-            if (self%edge_power < 1.0_dp) t = [-1.0_dp, 0.0_dp]
-            do j = 0, n - 1
-               t = [t(2), -2*middle/half*t(2) - t(1)]
-               of_chord = of_chord + t(2)*self%gegenbauer(:, j)
-            end do
-         end if
-         ! A factor half^(2 beta + 1), or half^(2 beta - 1) for the finite part: 2 without adhesion, 0 with adhesion.
-         factor = pi/size(self%direction)
-         if (nint(2*self%edge_power) == self%kernel_power) factor = factor*half**2
-         weight(k + 1:k + n) = factor*of_chord
-      end do
-   end subroutine place_points
 
 end module wavycon_chord_rule

@@ -123,15 +123,14 @@ contains
       type(fitted_function), intent(in) :: now   !! the approximation, of the kind that the equations were started for
 
       complex(dp) :: place_slope(0:ubound(now%shape%b, 1)), slope, z
-      real(dp) :: known, shape_row(0:ubound(now%shape%b, 1)), row(now%basis%terms)
+      real(dp) :: known
       integer :: i, m
 
       m = size(self%target)
       associate (terms => now%basis%terms, first => self%before_shape + 1)
          do i = 1, m
-            call self%chords%rows(now%basis, now%shape, self%target(i), now%c, row, shape_row)
-            self%matrix(i, :terms) = row
-            self%matrix(i, first:) = shape_row
+            call self%chords%rows(now%basis, now%shape, self%target(i), now%c, self%matrix(i, :terms), &
+                                  self%matrix(i, first:))
          end do
          self%load_row = 0.0_dp
          call self%images%add_rows(lattice, now, self%rule, self%values, self%target, self%matrix(:m, :terms), &
@@ -151,40 +150,40 @@ contains
             self%matrix(i, first:) = self%matrix(i, first:) + slope%re*place_slope%re + slope%im*place_slope%im
          end do
       end associate
-      if (size(self%edge) > 0) call linearise_edge(self, now)
+      if (size(self%edge) > 0) call linearise_edge()
+
+   contains
+
+      !> Sets the equations of the edge, README.md (F67), behind those of the targets: at points of the edge the sum of
+      !> c_i Psi_i(w) is the strength of the singular term that the work of adhesion requires. The equations are scaled
+      !> to the size of the others.
+      subroutine linearise_edge()
+         real(dp) :: log_slope(0:ubound(now%shape%b, 1)), ratio, row_factor, strength
+         integer :: i, row
+
+         row_factor = pi**2*now%shape%b(0)
+         if (now%pool) row_factor = 0.25_dp/now%shape%b(0)
+         do i = 1, size(self%edge)
+            row = size(self%target) + i
+            call now%shape%linearise_edge(self%edge(i), ratio, log_slope)
+            if (.not. ratio > 0.0_dp) then
+               ! The map folds at the edge. NaN tells the caller that there is no step.
+               self%residual(row) = not_a_number()
+               return
+            else if (now%pool) then
+               strength = 4*sqrt(now%work/ratio)
+               log_slope = -0.5_dp*log_slope
+            else
+               strength = -sqrt(now%work*ratio)/pi
+               log_slope = 0.5_dp*log_slope
+            end if
+            self%matrix(row, :self%before_shape) = [row_factor*self%edge_values(i, :), 0.0_dp]
+            self%matrix(row, self%before_shape + 1:) = -row_factor*strength*log_slope
+            self%residual(row) = row_factor*(strength - dot_product(self%edge_values(i, :), now%c))
+         end do
+      end subroutine linearise_edge
+
    end subroutine linearise
-
-   !> Sets the equations of the edge, README.md (F67), behind those of the targets: at points of the edge the sum of
-   !> c_i Psi_i(w) is the strength of the singular term that the work of adhesion requires. The equations are scaled to
-   !> the size of the others.
-   subroutine linearise_edge(self, now)
-      class(contact_equations), intent(inout) :: self
-      type(fitted_function), intent(in) :: now   !! as of `linearise`
-
-      real(dp) :: log_slope(0:ubound(now%shape%b, 1)), ratio, row_factor, strength
-      integer :: i, row
-
-      row_factor = pi**2*now%shape%b(0)
-      if (now%pool) row_factor = 0.25_dp/now%shape%b(0)
-      do i = 1, size(self%edge)
-         row = size(self%target) + i
-         call now%shape%linearise_edge(self%edge(i), ratio, log_slope)
-         if (.not. ratio > 0.0_dp) then
-            ! The map folds at the edge. NaN tells the caller that there is no step.
-            self%residual(row) = not_a_number()
-            return
-         else if (now%pool) then
-            strength = 4*sqrt(now%work/ratio)
-            log_slope = -0.5_dp*log_slope
-         else
-            strength = -sqrt(now%work*ratio)/pi
-            log_slope = 0.5_dp*log_slope
-         end if
-         self%matrix(row, :self%before_shape) = [row_factor*self%edge_values(i, :), 0.0_dp]
-         self%matrix(row, self%before_shape + 1:) = -row_factor*strength*log_slope
-         self%residual(row) = row_factor*(strength - dot_product(self%edge_values(i, :), now%c))
-      end do
-   end subroutine linearise_edge
 
    !> The integral over the spot or pool of the fitted function, p or g, times a function of the position.
    real(dp) function integral(self, now, factor)

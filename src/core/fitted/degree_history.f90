@@ -16,9 +16,6 @@ module wavycon_degree_history
       integer :: required = load_measure                           !! the measures 1 to `required` have to be accurate
       integer :: solutions = 0                                     !! number of solutions so far
       real(dp) :: measures(all_measures, 0:most_previous) = 0.0_dp !! measures of the last solutions, the newest first
-      real(dp) :: scale(all_measures) = 0.0_dp                     !! what errors of the newest solution are relative to
-      !> The bounds of each scale for the accuracy, which is relative to the scale or, beyond them, to the nearer bound.
-      real(dp) :: least_scale(all_measures) = 0.0_dp, largest_scale(all_measures) = huge(1.0_dp)
       real(dp) :: error(all_measures) = huge(1.0_dp)               !! error estimates of the newest solution's measures
       real(dp) :: best_error(all_measures) = huge(1.0_dp)          !! error estimates of the best solution's measures
       logical :: newest_is_best = .false.                          !! whether the newest solution is the best one
@@ -51,7 +48,6 @@ contains
       self%solutions = self%solutions + 1
       self%measures(:, 1:) = self%measures(:, :most_previous - 1)
       self%measures(:, 0) = measures
-      self%scale = reference
       self%newest_is_best = self%solutions == least_solutions
       if (self%solutions >= least_solutions) then
          self%decay = [min(max(misfit/max(self%misfit, tiny(misfit)), fastest_decay), 1.0_dp), self%decay(1)]
@@ -85,15 +81,13 @@ contains
       self%newest(0) = now
    end subroutine push
 
-   !> Whether the errors of the best solution are within an accuracy, relative to the scales.
-   pure logical function best_meets(self, accuracy)
+   !> Whether the errors of the best solution are within the largest allowed ones.
+   pure logical function best_meets(self, allowed)
       class(degree_history), intent(in) :: self
-      real(dp), intent(in) :: accuracy      !! largest allowed relative error, > 0
+      real(dp), intent(in) :: allowed(all_measures)   !! > 0; the first `required` ones are used
 
       associate (n => self%required)
-         best_meets = self%solutions >= least_solutions &
-            .and. all(self%best_error(:n) <= accuracy*min(max(self%scale(:n), self%least_scale(:n)), &
-                                                          self%largest_scale(:n)))
+         best_meets = self%solutions >= least_solutions .and. all(self%best_error(:n) <= allowed(:n))
       end associate
    end function best_meets
 

@@ -97,13 +97,9 @@ contains
 
       complex(dp) :: power
       real(dp) :: inverse, value(1)
-      integer :: k
 
       inverse = 1.0_dp/sqrt(v%re**2 + v%im**2)
-      power = inverse*v
-      do k = 2, fold
-         power = power*(inverse*v)
-      end do
+      power = (inverse*v)**fold
       value = self%table%at(power%re, 2*sqrt(max(1.0_dp - inverse, 0.0_dp)) - 1.0_dp)
       at = value(1)
       if (self%is_singular) at = at/sqrt(max(1.0_dp - inverse, epsilon(inverse)))

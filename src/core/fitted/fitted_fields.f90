@@ -38,7 +38,6 @@ module wavycon_fitted_fields
       type(chebyshev_table), private :: far              !! the field of all far images: even part, and odd part over x
    contains
       procedure :: at, prepare_map
-      procedure, private :: find_preimages, sum_over_images, coarse_sum
    end type fitted_fields
 
 contains
@@ -90,7 +89,7 @@ contains
 
       complex(dp) :: w, z(self%places)
       real(dp) :: without_gap
-      logical :: inside
+      logical :: inside   ! whether the position is inside one of the spots or pools
       integer :: i
 
       pressure = 0.0_dp
@@ -100,7 +99,7 @@ contains
       ! The second pool of a cell, with its fields, is the first one rotated by half a turn about a crest.
       do i = 1, self%places
          z(i) = self%lattice%rows%reduced(merge(place, -place, i == 1) - self%centre)
-         call self%find_preimages(z(i), i, w, inside)
+         call find_preimages(z(i), i)
          if (.not. inside) cycle
          if (self%answer%pool) then
             gap = self%answer%solution%at(w)
@@ -114,71 +113,73 @@ contains
          pressure = self%answer%pbar_over_pstar - self%lattice%closing_pressure &
             + self%lattice%rise(.true., place - self%lattice%trough)
          do i = 1, self%places
-            pressure = pressure + self%sum_over_images(z(i), i)
+            pressure = pressure + sum_over_images(z(i), i)
          end do
       else
-         displacement = self%sum_over_images(z(1), 1)
+         displacement = sum_over_images(z(1), 1)
          gap = displacement - without_gap
       end if
-   end subroutine at
 
-   !> Finds the preimages of a position under the maps of the spot or pool and its near images: of those that the
-   !> position may be inside of, or of all if the series needs them.
-   subroutine find_preimages(self, z, centre, w, inside)
-      class(fitted_fields), intent(inout) :: self
-      complex(dp), intent(in) :: z          !! position from the centre, reduced to the rectangle [s]
-      integer, intent(in) :: centre         !! number of the centre, 1 to `places`
-      complex(dp), intent(out) :: w         !! the preimage if `inside`
-      logical, intent(out) :: inside        !! whether the position is inside one of the spots or pools
+   contains
 
-      logical :: found
-      integer :: k
+      !> Finds the preimages of a position under the maps of the spot or pool and its near images: of those that the
+      !> position may be inside of, or of all if the series needs them. Sets `inside` and, if it is true, the preimage
+      !> w.
+      subroutine find_preimages(z, centre)
+         complex(dp), intent(in) :: z          !! position from the centre, reduced to the rectangle [s]
+         integer, intent(in) :: centre         !! number of the centre, 1 to `places`
 
-      inside = .false.
-      ! All images are tried: long spots and pools of a rhombic lattice reach beyond the rectangle of reduced positions.
-      do k = 1, size(self%image)
-         if (.not. allocated(self%series) .and. abs(z - self%image(k)) > self%spot%radius) cycle
-         associate (last => self%preimage(:, k, centre))
-            ! Most positions are asked for in rows with equal steps: extrapolate the start from the last two preimages.
-            call find_preimage(self%spot%solution%shape, z - self%image(k), w, found, 2*last(1) - last(2))
-            last = [merge(w, (0.0_dp, 0.0_dp), found), last(1)]
-         end associate
-         inside = found .and. w%re**2 + w%im**2 <= 1.0_dp
-         if (inside) return
-      end do
-   end subroutine find_preimages
+         logical :: found
+         integer :: k
 
-   !> The displacement [Delta] that a spot and all its images cause at a position outside of all, or the pressure
-   !> [pi E* Delta/s] that a pool and its images cause.
-   real(dp) function sum_over_images(self, z, centre) result(total)
-      class(fitted_fields), intent(inout) :: self
-      complex(dp), intent(in) :: z      !! position from the centre, reduced to the rectangle [s]
-      integer, intent(in) :: centre     !! number of the centre, for which find_preimages was called with z
+         inside = .false.
+         ! All images are tried: long spots and pools of a rhombic lattice reach beyond the rectangle of reduced
+         ! positions.
+         do k = 1, size(self%image)
+            if (.not. allocated(self%series) .and. abs(z - self%image(k)) > self%spot%radius) cycle
+            associate (last => self%preimage(:, k, centre))
+               ! Most positions are asked for in rows with equal steps: extrapolate the start from the last two
+               ! preimages.
+               call find_preimage(self%spot%solution%shape, z - self%image(k), w, found, 2*last(1) - last(2))
+               last = [merge(w, (0.0_dp, 0.0_dp), found), last(1)]
+            end associate
+            inside = found .and. w%re**2 + w%im**2 <= 1.0_dp
+            if (inside) return
+         end do
+      end subroutine find_preimages
 
-      real(dp) :: exact(stress_field_count), half(2)
-      logical :: far(size(self%image))
-      integer :: k
+      !> The displacement [Delta] that a spot and all its images cause at a position outside of all, or the pressure
+      !> [pi E* Delta/s] that a pool and its images cause.
+      real(dp) function sum_over_images(z, centre) result(total)
+         complex(dp), intent(in) :: z      !! position from the centre, reduced to the rectangle [s]
+         integer, intent(in) :: centre     !! number of the centre, for which find_preimages was called with z
 
-      far = .false.
-      if (allocated(self%series)) then
-         half = self%lattice%rows%half_sides()
-         total = dot_product([1.0_dp, z%re], &
-                             self%far%at(square_argument(z%re, half(1)), square_argument(z%im, half(2))))
-      else
-         far = [(self%spot%is_resolved(z - self%image(k)), k=1, size(far))]
-         total = self%coarse_sum(z, pack(self%image, .not. far))
-      end if
-      exact = 0.0_dp
-      do k = 1, size(far)
-         if (far(k)) cycle
-         if (allocated(self%series) .and. abs(self%preimage(1, k, centre)) > 0.0_dp) then
-            total = total + self%series%at(self%spot%solution%shape%fold, self%preimage(1, k, centre))
+         real(dp) :: exact(stress_field_count), half(2)
+         logical :: far(size(self%image))
+         integer :: k
+
+         far = .false.
+         if (allocated(self%series)) then
+            half = self%lattice%rows%half_sides()
+            total = dot_product([1.0_dp, z%re], &
+                                self%far%at(square_argument(z%re, half(1)), square_argument(z%im, half(2))))
          else
-            call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
+            far = [(self%spot%is_resolved(z - self%image(k)), k=1, size(far))]
+            total = coarse_sum(self, z, pack(self%image, .not. far))
          end if
-      end do
-      total = total + exact(1)
-   end function sum_over_images
+         exact = 0.0_dp
+         do k = 1, size(far)
+            if (far(k)) cycle
+            if (allocated(self%series) .and. abs(self%preimage(1, k, centre)) > 0.0_dp) then
+               total = total + self%series%at(self%spot%solution%shape%fold, self%preimage(1, k, centre))
+            else
+               call self%spot%add_at(z - self%image(k), 0.0_dp, exact)
+            end if
+         end do
+         total = total + exact(1)
+      end function sum_over_images
+
+   end subroutine at
 
    !> The sum over all images except some near ones, by the coarse rule.
    real(dp) function coarse_sum(self, z, near) result(total)
@@ -247,9 +248,9 @@ contains
       do j = 1, nodes
          do i = 1, nodes
             z = cmplx(x(i), y(j), dp)
-            values(i, j, 1) = self%coarse_sum(z, self%image)
+            values(i, j, 1) = coarse_sum(self, z, self%image)
             if (mod(self%answer%solution%shape%fold, 2) == 0) cycle
-            other = self%coarse_sum(-conjg(z), self%image)
+            other = coarse_sum(self, -conjg(z), self%image)
             values(i, j, :) = 0.5_dp*[values(i, j, 1) + other, (values(i, j, 1) - other)/x(i)]
          end do
       end do

@@ -19,7 +19,7 @@ module wavycon_fitted_function
    implicit none (type, external)
    private
 
-   public :: edge_power, fitted_function
+   public :: fitted_function
 
    type :: fitted_function
       logical :: pool = .false.              !! true: the gap over a pool; false: the pressure on a spot
@@ -35,15 +35,6 @@ module wavycon_fitted_function
    end type fitted_function
 
 contains
-
-   !> The power of 1 - |w|^2 to which a spot's pressure or a pool's gap is proportional at the edge.
-   pure real(dp) function edge_power(pool, adhesive)
-      logical, intent(in) :: pool, adhesive   !! a pool's gap (true) or a spot's pressure; with or without adhesion
-
-      edge_power = 0.5_dp
-      if (pool) edge_power = edge_power + 1.0_dp
-      if (adhesive) edge_power = edge_power - 1.0_dp
-   end function edge_power
 
    !> The same function in a basis of another degree and with another number of shape terms. New coefficients are 0, and
    !> those of polynomials that a smaller basis lacks are dropped. With another clustering the function changes a

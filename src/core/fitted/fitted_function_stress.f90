@@ -30,7 +30,6 @@ module wavycon_fitted_function_stress
       type(far_stress), allocatable, private :: far
    contains
       procedure :: at, distance_from_edges
-      procedure, private :: prepare_series, prepare_far
    end type fitted_function_stress
 
 contains
@@ -73,10 +72,10 @@ contains
 
       fields = 0.0_dp
       if (depth >= series_depth) then
-         if (.not. allocated(self%series)) call self%prepare_series()
+         if (.not. allocated(self%series)) call prepare_series(self)
          call self%series%add_at(place, depth, fields)
       else
-         if (.not. allocated(self%far)) call self%prepare_far()
+         if (.not. allocated(self%far)) call prepare_far(self)
          z = self%lattice%rows%reduced(place)
          call self%far%add_at(z%re, z%im, depth, fields)
          do i = 1, size(self%centre)
@@ -121,26 +120,8 @@ contains
          + self%spot%solution%basis%degree
       call start_disc_sources(sources, self%spot%solution, .false., 10 + ceiling(0.5_dp*waves), ceiling(waves))
       allocate (self%series)
-      call start_series(self, self%series, sources, series_depth, self%spot%digits)
+      call start_lattice_stress_series(self%series, self%lattice, sources, series_depth, self%spot%digits)
    end subroutine prepare_series
-
-   !> Makes a Fourier series of all spots or pools from the point sources, pressure or gap, of one of them.
-   subroutine start_series(stress, series, sources, depth, e_folds)
-      type(fitted_function_stress), intent(in) :: stress
-      type(lattice_stress_series), intent(out) :: series
-      type(disc_sources), intent(in) :: sources               !! sources of one spot or pool
-      real(dp), intent(in) :: depth, e_folds             !! as of start_lattice_stress_series
-
-      complex(dp) :: centre
-
-      associate (lattice => stress%lattice, pool => stress%spot%solution%pool)
-         centre = merge(lattice%trough, (0.0_dp, 0.0_dp), pool)
-         ! A pool and its image by half a turn about a crest have the same even terms. So the second pool of a cell is a
-         ! factor 2.
-         call start_lattice_stress_series(series, lattice%rows, centre%re + sources%x, centre%im + sources%y, &
-                                  merge(lattice%troughs, 1, pool)*sources%strength(:, 1), pool, depth, e_folds)
-      end associate
-   end subroutine start_series
 
    !> Makes the table of the far spots or pools. At its nodes their stresses are the Fourier series of all less the sum
    !> of the near ones. Both are those of the same point sources.
@@ -155,7 +136,7 @@ contains
       integer :: i, j, k, m
 
       call start_disc_sources(sources, self%spot%solution, .false., self%spot%radii(1), self%spot%angles(1))
-      call start_series(self, series, sources, far_top, self%spot%digits + 9.0_dp)
+      call start_lattice_stress_series(series, self%lattice, sources, far_top, self%spot%digits + 9.0_dp)
       allocate (self%far)
       call start_far_stress(self%far, self%lattice%rows%half_sides(), self%spot%solution%pool, &
                             self%spot%digits - 1.0_dp)

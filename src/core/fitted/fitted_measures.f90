@@ -4,7 +4,6 @@ module wavycon_fitted_measures
    use wavycon_disc_sources, only: copies
    use wavycon_fitted_function, only: fitted_function
    use wavycon_kinds, only: dp, pi
-   use wavycon_periodic_kernel, only: periodic_kernel
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -24,13 +23,14 @@ module wavycon_fitted_measures
 contains
 
    !> Computes all measures of a solution.
-   subroutine measure_fitted_function(equations, lattice, now, measures, reference)
+   subroutine measure_fitted_function(equations, lattice, now, measures, reference, scale)
       type(contact_equations), intent(in) :: equations     !! started for fitted functions like `now`
       type(wave_lattice), intent(in) :: lattice
       type(fitted_function), intent(inout) :: now          !! the solution; the load of an adhesive spot is set
       real(dp), intent(out) :: measures(all_measures)
       real(dp), intent(out) :: reference(all_measures)
          !! what errors are relative to: the measure; for loads and pressures with adhesion plus the tension at the edge
+      real(dp), intent(out) :: scale(all_measures)         !! what the accuracy is relative to
 
       real(dp) :: at_edge
 
@@ -42,7 +42,7 @@ contains
       measures(centre_measure) = now%at((0.0_dp, 0.0_dp))
       measures(peak_measure) = measures(centre_measure)
       if (now%pool) measures(peak_measure) = pressure_between_pools()
-      measures(energy_measure) = strain_energy(measures(gap_measure))
+      measures(energy_measure) = strain_energy()
       measures(perimeter_measure) = now%shape%perimeter()
       measures(load_measure) = now%load
       reference = measures
@@ -54,6 +54,13 @@ contains
                centre_measure])) + [at_edge, of_load, at_edge]
          end associate
       end if
+      scale = reference
+      ! Fields need the gap at a trough within the accuracy times Delta. Near full contact it is a small part of Delta.
+      scale(centre_measure) = max(reference(centre_measure), 1.0_dp)
+      ! The area is given and has no error. Under tension gap and load may be larger than Delta and the closing
+      ! pressure: their accuracy is relative to these.
+      if (now%work > 0.0_dp) scale([gap_measure, area_measure, peak_measure, load_measure]) = [1.0_dp, huge(1.0_dp), &
+         max(reference(peak_measure), lattice%closing_pressure), lattice%closing_pressure]
 
    contains
 
@@ -61,14 +68,11 @@ contains
       !> integral of the gap times the Laplacian of Gp, README.md (F45). The pools of a cell are mirror images about the
       !> crest, so that each contributes the same.
       real(dp) function pressure_between_pools()
-         type(periodic_kernel) :: kernel
          complex(dp) :: from_crest(2*now%basis%fold*size(equations%rule%point))
          real(dp) :: mean(size(equations%rule%point)), value(size(from_crest))
 
-         kernel = lattice%kernel(2)
-         kernel%whole = .true.
          from_crest = lattice%trough + copies(now%basis%fold, now%shape%position_of(equations%rule%point))
-         call kernel%evaluate(size(value), from_crest%re, from_crest%im, value)
+         call lattice%kernel(3)%evaluate(size(value), from_crest%re, from_crest%im, value)
          ! The points of the rule lie in one sector. So the mean of the kernel over their copies is taken.
          mean = sum(reshape(value, [size(mean), 2*now%basis%fold]), 2)/(2*now%basis%fold)
          pressure_between_pools = now%load - lattice%closing_pressure + lattice%rise(.true., -lattice%trough) &
@@ -79,16 +83,15 @@ contains
       !>
       !> In contact u = delta - h. For pools p u = p (delta - h + g) everywhere, and p g = 0. The integral of p h
       !> follows from the Fourier coefficients of p at the waves of h, which are |k| times those of u.
-      real(dp) function strain_energy(mean_gap) result(energy)
-         real(dp), intent(in) :: mean_gap
-
+      real(dp) function strain_energy() result(energy)
          complex(dp) :: z(size(equations%rule%point))
 
          z = now%shape%position_of(equations%rule%point)
          if (now%pool) then
             associate (rise => lattice%rise(.true., z) - lattice%closing_pressure, &
                        full => 0.5_dp*lattice%area*sum(lattice%amplitude*lattice%pressure))
-               energy = 0.5_dp*(full + lattice%troughs*equations%integral(now, rise) - now%load*mean_gap*lattice%area)
+               energy = 0.5_dp*(full + lattice%troughs*equations%integral(now, rise) &
+                                - now%load*measures(gap_measure)*lattice%area)
             end associate
          else
             energy = 0.5_dp*(now%approach*now%load*lattice%area + equations%integral(now, lattice%rise(.false., z)))

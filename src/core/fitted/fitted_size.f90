@@ -7,7 +7,6 @@ module wavycon_fitted_size
       full_step_degree, pool_clustering, pool_clustering_power, least_clustering, round_shape_ratio, &
       spot_clustering, spot_clustering_power
    use wavycon_kinds, only: dp
-   use wavycon_shape_map, only: shape_map
    use wavycon_shape_search, only: distance_from_edge, edge_points
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
@@ -19,7 +18,8 @@ contains
 
    !> The merging ratio: the part of the distance from the centre to the midpoint between neighbours that a spot or pool
    !> covers, in the direction where this part is largest. It is 0 for a point, 1 where neighbours touch, and larger
-   !> where they overlap.
+   !> where they overlap. The point of the edge nearest to the midpoint counts: long spots have tips off the axes, which
+   !> approach the midpoint from the side.
    pure real(dp) function merging_ratio(lattice, now) result(ratio)
       type(wave_lattice), intent(in) :: lattice
       type(fitted_function), intent(in) :: now    !! the spot or pool
@@ -27,35 +27,13 @@ contains
       complex(dp), allocatable :: midpoints(:)
       integer :: i
 
-      if (now%pool) then
-         allocate (midpoints, source=lattice%to_next_trough)
-      else
-         allocate (midpoints, source=lattice%to_next_crest)
-      end if
-      ratio = maxval([(ratio_towards(now%shape, midpoints(i)), i=1, size(midpoints))])
-   end function merging_ratio
-
-   !> The merging ratio towards one midpoint.
-   pure real(dp) function ratio_towards(map, midpoint) result(ratio)
-      type(shape_map), intent(in) :: map
-      complex(dp), intent(in) :: midpoint   !! its position from the shape's centre [s]
-
-      !> An angle whose sine is less than this counts as 0.
-      real(dp), parameter :: rounding = 1e-12_dp
-      complex(dp) :: direction
-
-      direction = midpoint/abs(midpoint)
-      associate (rotated => direction**map%fold)
-         if (abs(rotated%im) < rounding) then
-            ! The midpoint lies on an axis of symmetry. The edge's point in this direction is the image of the disc's
-            ! one.
-            ratio = abs(map%position_of(direction))/abs(midpoint)
-         else
-            ! Long spots have tips off the axes, which approach the midpoint from the side.
-            ratio = 1.0_dp - distance_from_edge(map, edge_points(map), midpoint)/abs(midpoint)
-         end if
+      allocate (midpoints, source=lattice%to_next_crest)
+      if (now%pool) midpoints = lattice%to_next_trough
+      associate (edge => edge_points(now%shape))
+         ratio = 1.0_dp - minval([(distance_from_edge(now%shape, edge, midpoints(i))/abs(midpoints(i)), &
+                                   i=1, size(midpoints))])
       end associate
-   end function ratio_towards
+   end function merging_ratio
 
    !> The next degree of the sequence, a half or a full step higher.
    !>

@@ -9,9 +9,9 @@ module wavycon_fitted_solver
       load_measure, measure_fitted_function, peak_measure, perimeter_measure
    use wavycon_fitted_size, only: merging_ratio, next_clustering, next_degree, shape_terms
    use wavycon_fitted_tuning, only: degree_step, first_degree, last_degree, round_shape_ratio, series_growth
-   use wavycon_gauss_newton, only: change_with_area, newton_steps
+   use wavycon_gauss_newton, only: least_squares_step, newton_steps
    use wavycon_kinds, only: dp, ieee_is_finite
-   use wavycon_load_continuation, only: is_start, start_at_area, start_at_load
+   use wavycon_load_continuation, only: find_start, is_start
    use wavycon_quantities, only: approach, contact_area, elastic_energy, mean_gap, peak_pressure, perimeter, &
       polynomial_degree, unknown
    use wavycon_wave_lattice, only: wave_lattice
@@ -29,16 +29,6 @@ module wavycon_fitted_solver
    integer, parameter :: measured(*) = [mean_gap, contact_area, peak_pressure, elastic_energy, perimeter]
    integer, parameter :: shown_measures(*) = [gap_measure, area_measure, peak_measure, energy_measure, &
       perimeter_measure]
-
-   !> The derivatives by the area of a contact with adhesion, at the newest degrees: README.md (F70), (F70a).
-   type :: area_slopes
-      real(dp), allocatable :: area_change(:)                !! those of all unknowns, at the newest degree
-      real(dp) :: slopes(3, 0:most_previous) = 0.0_dp        !! those of load, approach and b_0, the newest first
-      real(dp) :: changes(2) = 0.0_dp                        !! last step's change of the shape, the newest first
-      real(dp) :: decay(2) = 1.0_dp                          !! decay of the slopes' errors, the newest first
-   contains
-      procedure :: shift, find_newest, set_slopes
-   end type area_slopes
 
 contains
 
@@ -61,106 +51,65 @@ contains
          !! whether the error of a pool's gap at its trough has to be within the accuracy times Delta, because fields
          !! need this; false if absent
 
-      logical :: first_is_pool
+      type(fitted_function) :: goal
 
       answer%pbar_over_pstar = pbar_over_pstar
       answer%status = fitted_bad_input
       if (.not. (pbar_over_pstar > 0.0_dp .and. pbar_over_pstar < lattice%closing_pressure)) return
       if (.not. accuracy > 0.0_dp) return
-      first_is_pool = pbar_over_pstar > lattice%about_merging
+      goal%load = pbar_over_pstar
+      goal%pool = pbar_over_pstar > lattice%about_merging
       if (present(start)) then
          ! If pools are separate at a lighter load they are separate at this load. If spots are separate at a heavier
          ! load they are separate at this one.
          if (start%status <= fitted_less_exact .and. &
-             (start%pool .eqv. pbar_over_pstar >= start%pbar_over_pstar)) first_is_pool = start%pool
+             (start%pool .eqv. pbar_over_pstar >= start%pbar_over_pstar)) goal%pool = start%pool
       end if
-      call solve_regime(lattice, accuracy, first_is_pool, answer, start, fields)
+      call solve_regime(lattice, goal, accuracy, accuracy, answer, start, fields)
       ! A start with sharp tips may not lead to a much rounder shape.
       if (answer%status >= fitted_merged .and. present(start)) then
-         if (is_start(lattice, start, pbar_over_pstar, first_is_pool)) &
-            call solve_regime(lattice, accuracy, first_is_pool, answer, fields=fields)
+         if (is_start(lattice, start, goal)) call solve_regime(lattice, goal, accuracy, accuracy, answer, fields=fields)
       end if
-      if (answer%status >= fitted_merged) &
-         call solve_regime(lattice, accuracy, .not. first_is_pool, answer, start, fields)
+      if (answer%status < fitted_merged) return
+      goal%pool = .not. goal%pool
+      call solve_regime(lattice, goal, accuracy, accuracy, answer, start, fields)
    end subroutine solve_fitted
 
-   !> Solves for a spot or for a pool.
-   subroutine solve_regime(lattice, accuracy, pool, answer, start, fields)
+   !> Solves for a spot or for a pool, at rising degrees, until the estimated errors are within the accuracy. The answer
+   !> is the solution with the least estimated errors.
+   subroutine solve_regime(lattice, goal, accuracy, finest, answer, start, fields)
       type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: accuracy                     !! as of solve_fitted
-      logical, intent(in) :: pool                          !! true: for a pool; false: for a spot
-      type(fitted_answer), intent(inout) :: answer         !! on entry with its load
+      type(fitted_function), intent(in) :: goal            !! as of find_start
+      real(dp), intent(in) :: accuracy                     !! largest allowed relative error
+      real(dp), intent(in) :: finest                       !! as of solve_adhesive; without adhesion the accuracy
+      type(fitted_answer), intent(inout) :: answer         !! on entry without a solution
       type(fitted_answer), intent(in), optional :: start   !! as of solve_fitted
       logical, intent(in), optional :: fields              !! as of solve_fitted
 
-      type(fitted_function) :: now
-      integer :: degree, required
-      logical :: merged, valid
-
-      answer%pool = pool
-      answer%status = fitted_failed
-      answer%iterations = 0
-      required = load_measure
-      if (present(fields)) required = merge(centre_measure, load_measure, fields .and. pool)
-      call start_at_load(lattice, answer%pbar_over_pstar, pool, now, degree, answer%iterations, valid, merged, start)
-      if (merged) answer%status = fitted_merged
-      if (valid) call raise_degree(lattice, accuracy, accuracy, now, degree, required, answer)
-   end subroutine solve_regime
-
-   !> Solves the contact with adhesion of a spot or a pool of a given area. The load is part of the solution.
-   !>
-   !> The accuracy is relative to Delta for the mean gap, and to the closing pressure for the load and, if this is not
-   !> larger, for the peak pressure. Near merging the gap is a tenth of Delta: errors relative to the gap would take
-   !> higher degrees for digits that a curve does not show. Status: fitted_solved, fitted_less_exact, fitted_merged if
-   !> the shape touches its neighbours, or fitted_failed.
-   subroutine solve_adhesive(lattice, pool, work, area, accuracy, answer, start, finest)
-      type(wave_lattice), intent(in) :: lattice
-      logical, intent(in) :: pool            !! true: an open pool; false: a contact spot
-      real(dp), intent(in) :: work           !! work of adhesion W > 0 [pi E* Delta^2/s]
-      real(dp), intent(in) :: area           !! area of the spot or pool, between 0 and that of its cell [s^2]
-      real(dp), intent(in) :: accuracy       !! largest allowed error over these scales, > 0
-      type(fitted_answer), intent(out) :: answer
-      type(fitted_answer), intent(in), optional :: start
-         !! solution of another area of the same lattice and work, which saves time; not the variable `answer`
-      real(dp), intent(in), optional :: finest
-         !! accuracy to which the degree is raised further while the sign of the approach's slope is not sure,
-         !! 0 < finest <= accuracy; the accuracy if absent
-
-      type(fitted_function) :: now
-      real(dp) :: least
-      integer :: degree
-      logical :: valid
-
-      answer%pool = pool
-      call start_at_area(lattice, pool, work, area, now, degree, answer%iterations, valid, start)
-      if (.not. valid) return
-      least = accuracy
-      if (present(finest)) least = finest
-      call raise_degree(lattice, accuracy, least, now, degree, load_measure, answer)
-   end subroutine solve_adhesive
-
-   !> Solves at rising degrees, from an approximation on, until the estimated errors are within the accuracy. The answer
-   !> is the solution with the least estimated errors.
-   subroutine raise_degree(lattice, accuracy, finest, now, first, required, answer)
-      type(wave_lattice), intent(in) :: lattice
-      real(dp), intent(in) :: accuracy               !! largest allowed relative error
-      real(dp), intent(in) :: finest                 !! as of solve_adhesive; without adhesion the accuracy
-      type(fitted_function), intent(inout) :: now    !! on entry the approximation, on exit the last solution
-      integer, intent(in) :: first                   !! degree to start with
-      integer, intent(in) :: required                !! the measures 1 to `required` have to be so accurate
-      type(fitted_answer), intent(inout) :: answer   !! on entry without a solution
-
-      type(area_slopes) :: by_area
       type(contact_equations) :: equations
       type(degree_history) :: history
+      type(fitted_function) :: now
       type(newton_steps) :: newton
-      real(dp) :: clustering, measures(all_measures), ratio, reference(all_measures), tolerance
+      real(dp) :: clustering, measures(all_measures), ratio, reference(all_measures), scale(all_measures), tolerance
+      !> With adhesion, at the newest degrees: the derivatives by the area of load, approach and b_0, the last step's
+      !> change of the shape, and the decay of the slopes' errors, the newest first: README.md (F70), (F70a).
+      real(dp) :: slopes(3, 0:most_previous), changes(2), decay(2)
       integer :: degree, failed, start_degree
-      logical :: adhesive, merged
+      logical :: adhesive, merged, valid
 
-      degree = first
-      adhesive = now%work > 0.0_dp
-      call set_scales(history, required, adhesive, lattice%closing_pressure)
+      now = goal
+      adhesive = goal%work > 0.0_dp
+      answer%pool = goal%pool
+      answer%status = fitted_failed
+      answer%iterations = 0
+      history%required = load_measure
+      if (present(fields)) history%required = merge(centre_measure, load_measure, fields .and. goal%pool)
+      slopes = 0.0_dp
+      changes = 0.0_dp
+      decay = 1.0_dp
+      call find_start(lattice, now, degree, answer%iterations, valid, merged, start)
+      if (merged) answer%status = fitted_merged
+      if (.not. valid) return
       ! Relative tolerance of the shape. A smaller one would be rounding. A larger one would show in the differences
       ! between degrees. Most solutions of a curve with adhesion are to a low accuracy: what Newton's method leaves is
       ! part of their told errors.
@@ -191,31 +140,28 @@ contains
          failed = failed + 1
          if (newton%change <= 1e-4_dp .or. newton%remaining <= tolerance) then
             failed = 0
-            call measure_fitted_function(equations, lattice, now, measures, reference)
+            call measure_fitted_function(equations, lattice, now, measures, reference, scale)
             if (.not. all(reference(:load_measure) > 0.0_dp)) exit
             call history%push(now, measures, reference, newton%misfit, newton%remaining)
             if (adhesive) then
-               call by_area%shift()
-               call by_area%find_newest(equations, lattice, now, newton%change, history%decay(1))
+               slopes(:, 1:) = slopes(:, :most_previous - 1)
+               changes(2) = changes(1)
+               decay(2) = decay(1)
+               call find_slopes(newton%change)
             end if
-            if (history%newest_is_best) then
-               call set_answer(answer, lattice, history, now, newton%residual, merging_ratio(lattice, now), &
-                               equations%images%tolerance)
-               if (adhesive) call by_area%set_slopes(answer, lattice, history%solutions)
-            end if
-            if (history%best_meets(accuracy)) then
+            if (history%newest_is_best) call set_answer()
+            if (history%best_meets(accuracy*scale)) then
                answer%status = fitted_solved
                ! A slope of unsure sign is of little use. At the solution itself it takes one more linearisation,
                ! which is done where the error falls to less than half.
-               if (adhesive .and. history%newest_is_best .and. by_area%decay(1) > 2*history%decay(1) .and. &
+               if (adhesive .and. history%newest_is_best .and. decay(1) > 2*history%decay(1) .and. &
                    .not. all(abs(answer%area_slopes) > answer%area_slope_errors)) then
                   call equations%linearise(lattice, now)
                   ! The map may fold at the edge: there is no next step then.
                   if (.not. all(ieee_is_finite(equations%residual))) exit
-                  call by_area%find_newest(equations, lattice, now, 0.0_dp, history%decay(1))
-                  call by_area%set_slopes(answer, lattice, history%solutions)
+                  call find_slopes(0.0_dp)
                end if
-               if (history%best_meets(finest)) exit
+               if (history%best_meets(finest*scale)) exit
                if (abs(answer%area_slopes(2)) > answer%area_slope_errors(2)) exit
                tolerance = max(0.1_dp*finest, 1e-13_dp)
             end if
@@ -228,68 +174,62 @@ contains
       ! merged.
       if (merged .and. answer%status /= fitted_solved .and. &
           (answer%status == fitted_failed .or. .not. lattice%square)) answer%status = fitted_merged
-   end subroutine raise_degree
 
-   !> Sets what errors are relative to, and the measures that have to be so accurate.
-   subroutine set_scales(history, required, adhesive, closing_pressure)
-      type(degree_history), intent(inout) :: history
-      integer, intent(in) :: required               !! as of raise_degree
-      logical, intent(in) :: adhesive
-      real(dp), intent(in) :: closing_pressure      !! of the lattice
+   contains
 
-      history%required = required
-      ! Fields need the gap at a trough within the accuracy times Delta. Near full contact it is a small part of Delta.
-      history%least_scale(centre_measure) = 1.0_dp
-      if (.not. adhesive) return
-      ! The area is given and has no error. Under tension gap and load may be larger than Delta and the closing
-      ! pressure: their accuracy is relative to these.
-      history%least_scale(:load_measure) = closing_pressure
-      history%least_scale([gap_measure, area_measure]) = [1.0_dp, huge(1.0_dp)]
-      history%largest_scale([gap_measure, load_measure]) = history%least_scale([gap_measure, load_measure])
-   end subroutine set_scales
+      !> Sets the answer to the newest solution, which is the best one so far.
+      subroutine set_answer()
+         real(dp) :: error(all_measures)
 
-   !> Makes room for the slopes at the next degree.
-   subroutine shift(self)
-      class(area_slopes), intent(inout) :: self
+         answer%status = fitted_less_exact
+         answer%solution = now
+         answer%residual = newton%residual
+         answer%merging_ratio = merging_ratio(lattice, now)
+         ! All degrees have the same error of the images. So this error is not considered in the choice of the best
+         ! degree, and is added only here.
+         error = max(history%error, equations%images%tolerance*reference)
+         answer%pbar_over_pstar = measures(load_measure)
+         answer%load_error = error(load_measure)
+         answer%value(measured) = measures(shown_measures)
+         answer%error(measured) = error(shown_measures)
+         answer%value(approach) = 1.0_dp - answer%value(mean_gap)
+         answer%value(polynomial_degree) = now%basis%degree
+         associate (area => answer%value(contact_area), area_error => answer%error(contact_area))
+            area = area/lattice%area
+            area_error = area_error/lattice%area
+            if (now%pool) then
+               area = 1.0_dp - lattice%troughs*area
+               area_error = lattice%troughs*area_error
+            end if
+         end associate
+         answer%misfit_decay = history%decay
+         answer%previous = history%newest(1:min(history%solutions - 1, most_previous))
+      end subroutine set_answer
 
-      self%slopes(:, 1:) = self%slopes(:, :most_previous - 1)
-      self%changes(2) = self%changes(1)
-      self%decay(2) = self%decay(1)
-   end subroutine shift
+      !> Sets the newest slopes from the equations as they are linearised, README.md (F70), and those of the answer if
+      !> the newest solution is the best one.
+      subroutine find_slopes(change)
+         real(dp), intent(in) :: change   !! last step's change of the shape
 
-   !> Sets the newest slopes from the equations as they are linearised: README.md (F70).
-   subroutine find_newest(self, equations, lattice, now, change, decay)
-      class(area_slopes), intent(inout) :: self
-      type(contact_equations), intent(in) :: equations
-      type(wave_lattice), intent(in) :: lattice
-      type(fitted_function), intent(in) :: now              !! the solution
-      real(dp), intent(in) :: change, decay                 !! last step's change of the shape; decay of other errors
+         logical :: finite   ! not used: the last step was finite
+         real(dp) :: misfit, of_all(equations%unknowns)
 
-      integer :: k
+         call least_squares_step(equations, now, 0*equations%residual, 1.0_dp, of_all, misfit, finite)
+         associate (of_integral => dot_product(equations%load_row, of_all)/lattice%area, &
+                    of_unknown => of_all(now%basis%terms + 1))
+            slopes(:, 0) = [of_integral, of_unknown, of_all(equations%before_shape + 1)]
+            if (now%pool) slopes(:2, 0) = [of_unknown, -lattice%troughs*of_integral]
+         end associate
+         changes(1) = change
+         decay(1) = max(history%decay(1), min(change/max(changes(2), tiny(change)), 1.0_dp))
+         if (.not. history%newest_is_best) return
+         answer%area_change = of_all
+         answer%area_slopes = slopes(:2, 0)
+         answer%area_slope_errors = slope_errors(slopes(:, :min(history%solutions - 1, most_previous)), decay, &
+                                                 [lattice%closing_pressure, 1.0_dp]/lattice%area)
+      end subroutine find_slopes
 
-      self%area_change = [(0.0_dp, k=1, equations%unknowns)]
-      call change_with_area(equations, now, self%area_change)
-      associate (of_integral => dot_product(equations%load_row, self%area_change)/lattice%area, &
-                 of_unknown => self%area_change(now%basis%terms + 1), of_shape => equations%before_shape + 1)
-         self%slopes(:, 0) = [of_integral, of_unknown, self%area_change(of_shape)]
-         if (now%pool) self%slopes(:2, 0) = [of_unknown, -lattice%troughs*of_integral]
-      end associate
-      self%changes(1) = change
-      self%decay(1) = max(decay, min(change/max(self%changes(2), tiny(change)), 1.0_dp))
-   end subroutine find_newest
-
-   !> Gives an answer the newest slopes and their errors.
-   subroutine set_slopes(self, answer, lattice, solutions)
-      class(area_slopes), intent(in) :: self
-      type(fitted_answer), intent(inout) :: answer
-      type(wave_lattice), intent(in) :: lattice
-      integer, intent(in) :: solutions   !! number of degrees with a solution so far
-
-      answer%area_change = self%area_change
-      answer%area_slopes = self%slopes(:2, 0)
-      answer%area_slope_errors = slope_errors(self%slopes(:, :min(solutions - 1, most_previous)), self%decay, &
-                                              [lattice%closing_pressure, 1.0_dp]/lattice%area)
-   end subroutine set_slopes
+   end subroutine solve_regime
 
    !> Estimates of the errors of the slopes of load and approach: README.md (F70a), (F70b). Unknown if there is none.
    pure function slope_errors(slopes, decay, reference) result(errors)
@@ -311,40 +251,34 @@ contains
       end if
    end function slope_errors
 
-   !> Sets the answer to the newest solution, which is the best one so far.
-   subroutine set_answer(answer, lattice, history, now, residual, ratio, images_tolerance)
-      type(fitted_answer), intent(inout) :: answer
+   !> Solves the contact with adhesion of a spot or a pool of a given area. The load is part of the solution.
+   !>
+   !> The accuracy is relative to Delta for the mean gap, and to the closing pressure for the load and, if this is not
+   !> larger, for the peak pressure. Near merging the gap is a tenth of Delta: errors relative to the gap would take
+   !> higher degrees for digits that a curve does not show. Status: fitted_solved, fitted_less_exact, fitted_merged if
+   !> the shape touches its neighbours, or fitted_failed.
+   subroutine solve_adhesive(lattice, pool, work, area, accuracy, answer, start, finest)
       type(wave_lattice), intent(in) :: lattice
-      type(degree_history), intent(in) :: history
-      type(fitted_function), intent(in) :: now
-      real(dp), intent(in) :: residual, ratio      !! largest residual; merging ratio
-      real(dp), intent(in) :: images_tolerance     !! relative error of the images' kernel
+      logical, intent(in) :: pool            !! true: an open pool; false: a contact spot
+      real(dp), intent(in) :: work           !! work of adhesion W > 0 [pi E* Delta^2/s]
+      real(dp), intent(in) :: area           !! area of the spot or pool, between 0 and that of its cell [s^2]
+      real(dp), intent(in) :: accuracy       !! largest allowed error over these scales, > 0
+      type(fitted_answer), intent(out) :: answer
+      type(fitted_answer), intent(in), optional :: start
+         !! solution of another area of the same lattice and work, which saves time; not the variable `answer`
+      real(dp), intent(in), optional :: finest
+         !! accuracy to which the degree is raised further while the sign of the approach's slope is not sure,
+         !! 0 < finest <= accuracy; the accuracy if absent
 
-      real(dp) :: error(all_measures)
+      type(fitted_function) :: goal
+      real(dp) :: least
 
-      answer%status = fitted_less_exact
-      answer%solution = now
-      answer%residual = residual
-      answer%merging_ratio = ratio
-      ! All degrees have the same error of the images. So this error is not considered in the choice of the best degree,
-      ! and is added only here.
-      error = max(history%error, images_tolerance*history%scale)
-      answer%pbar_over_pstar = history%measures(load_measure, 0)
-      answer%load_error = error(load_measure)
-      answer%value(measured) = history%measures(shown_measures, 0)
-      answer%error(measured) = error(shown_measures)
-      answer%value(approach) = 1.0_dp - answer%value(mean_gap)
-      answer%value(polynomial_degree) = now%basis%degree
-      associate (area => answer%value(contact_area), area_error => answer%error(contact_area))
-         area = area/lattice%area
-         area_error = area_error/lattice%area
-         if (now%pool) then
-            area = 1.0_dp - lattice%troughs*area
-            area_error = lattice%troughs*area_error
-         end if
-      end associate
-      answer%misfit_decay = history%decay
-      answer%previous = history%newest(1:min(history%solutions - 1, most_previous))
-   end subroutine set_answer
+      goal%pool = pool
+      goal%work = work
+      goal%area = area
+      least = accuracy
+      if (present(finest)) least = finest
+      call solve_regime(lattice, goal, accuracy, least, answer, start)
+   end subroutine solve_adhesive
 
 end module wavycon_fitted_solver

@@ -9,7 +9,7 @@ module wavycon_gauss_newton
    implicit none (type, external)
    private
 
-   public :: add_step, change_with_area, changes_with_load, newton_steps
+   public :: add_step, changes_with_load, least_squares_step, newton_steps
 
    !> The iteration, and the numbers of its last step.
    type :: newton_steps
@@ -118,63 +118,37 @@ contains
       real(dp), parameter :: part = 1e-3_dp
       !> Weights in the finite difference of the solutions one step and two steps away.
       real(dp), parameter :: weight(2) = [2.0_dp/3, -1.0_dp/12]
-      real(dp) :: load_row(size(change)), matrix(size(equations%matrix, 1), size(equations%matrix, 2)), misfit, &
-         right(size(equations%residual)), row_change, step
+      type(contact_equations) :: moved     ! the equations at the solution moved along x' by some steps of the load
+      type(fitted_function) :: other
+      real(dp) :: misfit, right(size(equations%residual)), row_change, step
       integer :: i
 
-      call linearise_at(0)
-      matrix = equations%matrix
-      load_row = equations%load_row
-      finite = all(ieee_is_finite(matrix))
+      call equations%linearise(lattice, now)
+      finite = all(ieee_is_finite(equations%matrix))
       if (.not. finite) return
       right = merge(1.0_dp, 0.0_dp, now%pool)
       call least_squares_step(equations, now, right, lattice%area, change, misfit, finite)
       if (.not. finite) return
       step = part*min(now%load, lattice%closing_pressure - now%load)
+      moved = equations
       right = 0.0_dp
       row_change = 0.0_dp
       do i = -2, 2
          if (i == 0) cycle
-         call linearise_at(i)
+         other = now
+         call add_step(other, i*step*change)
+         call moved%linearise(lattice, other)
          associate (factor => sign(weight(abs(i)), weight(abs(i))*i)/step)
-            right = right - factor*matmul(equations%matrix, change)
-            row_change = row_change + factor*dot_product(equations%load_row, change)
+            right = right - factor*matmul(moved%matrix, change)
+            row_change = row_change + factor*dot_product(moved%load_row, change)
          end associate
       end do
       finite = all(ieee_is_finite(right))
       if (.not. finite) return
-      equations%matrix = matrix
-      equations%load_row = load_row
       call least_squares_step(equations, now, right, -row_change, change_of_change, misfit, finite)
-      load_change = [dot_product(load_row, change), dot_product(load_row, change_of_change) + row_change]
-
-   contains
-
-      !> Linearises the equations at the solution, or at the solution moved along x' by some steps of the load.
-      subroutine linearise_at(steps)
-         integer, intent(in) :: steps
-
-         type(fitted_function) :: other
-
-         other = now
-         if (steps /= 0) call add_step(other, steps*step*change)
-         call equations%linearise(lattice, other)
-      end subroutine linearise_at
-
+      load_change = [dot_product(equations%load_row, change), &
+                     dot_product(equations%load_row, change_of_change) + row_change]
    end subroutine changes_with_load
-
-   !> The derivatives of the unknowns by the area of an adhesive spot or pool, README.md (F70), from the matrix of the
-   !> last step.
-   subroutine change_with_area(equations, now, change)
-      type(contact_equations), intent(in) :: equations     !! as the last step left them
-      type(fitted_function), intent(in) :: now             !! the solution, with adhesion
-      real(dp), intent(out) :: change(:)                   !! shape (unknowns)
-
-      logical :: finite   ! not used: the last step was finite
-      real(dp) :: misfit
-
-      call least_squares_step(equations, now, 0*equations%residual, 1.0_dp, change, misfit, finite)
-   end subroutine change_with_area
 
    !> Adds a step to the unknowns of a fitted function: coefficients, approach or load, and shape.
    pure subroutine add_step(now, step)

@@ -35,16 +35,6 @@ module wavycon_lattice_images
       procedure :: prepare, add_rows
    end type lattice_images
 
-   !> F for all sources and targets, and its gradients.
-   type :: kernel_table
-      complex(dp), allocatable :: target(:), source(:)   !! positions z_t, shape (m), and z_s, shape (n) [s]
-      real(dp), allocatable :: strength(:)               !! value of each source times its area, shape (n)
-      real(dp), allocatable :: f(:, :)                   !! F, shape (n, m)
-      !> Its gradient by the source's position, shape (n, m).
-      real(dp), dimension(:, :), allocatable :: gradient_x, gradient_y
-      complex(dp), allocatable :: target_gradient(:)     !! that of the sum over all sources by z_t, shape (m)
-   end type kernel_table
-
    !> Least tolerance of a series. Rounding causes errors of about 1e-13 of the largest value near the edge of the disc.
    real(dp), parameter :: least_tolerance = 5e-13_dp
 
@@ -91,41 +81,43 @@ contains
       associate (kernel => lattice%kernel(merge(2, 1, now%pool)))
          self%near%power = kernel%power
          call start_disc_polynomials(self%basis, now%basis%fold, degree, 0.0_dp)
-         call find_coefficients(self, kernel)
+         call find_coefficients(kernel)
       end associate
+
+   contains
+
+      !> Computes B from the values of F at all pairs of a rule's points, by the orthonormality of the basis.
+      subroutine find_coefficients(kernel)
+         type(periodic_kernel), intent(in) :: kernel   !! the whole kernel, with the lattice points near by
+
+         type(disc_rule) :: rule
+         complex(dp), allocatable :: source(:, :), z(:)
+         real(dp), allocatable :: near(:), nodes(:, :), part(:, :), value(:), values(:, :)
+         integer :: j, k, n
+
+         associate (fold => self%basis%fold, degree => self%basis%degree, terms => self%basis%terms)
+            call start_disc_rule(rule, 0.0_dp, fold, degree/2 + 1, degree/fold + 1)
+            n = size(rule%point)
+            source = reshape(copies(fold, self%radius*rule%point), [n, 2*fold])
+            allocate (near(2*fold*n), nodes(n, n), part(n, terms), value(2*fold*n), values(n, terms))
+            do j = 1, n
+               ! F is symmetric in target and source. So only the sources j .. n are computed for the target j.
+               z = reshape(self%radius*rule%point(j) - source(j:, :), [2*fold*(n - j + 1)])
+               k = size(z)
+               call kernel%evaluate(k, z%re, z%im, value)
+               call self%near%evaluate(k, z%re, z%im, near)
+               nodes(j:, j) = sum(reshape(value(:k) - near(:k), [n - j + 1, 2*fold]), 2)/(2*fold)
+               nodes(j, j:) = nodes(j:, j)
+            end do
+            call self%basis%evaluate(n, rule%point, values)
+            values = values*spread(rule%weight, 2, terms)
+            call dgemm('N', 'N', n, terms, n, 1.0_dp, nodes, n, values, n, 0.0_dp, part, n)
+            self%coefficient = reshape([real(dp) ::], [terms, terms], pad=[0.0_dp])
+            call dgemm('T', 'N', terms, terms, n, 1.0_dp, values, n, part, n, 0.0_dp, self%coefficient, terms)
+         end associate
+      end subroutine find_coefficients
+
    end subroutine prepare
-
-   !> Computes B from the values of F at all pairs of a rule's points, by the orthonormality of the basis.
-   subroutine find_coefficients(self, kernel)
-      class(lattice_images), intent(inout) :: self
-      type(periodic_kernel), intent(in) :: kernel   !! the whole kernel, with the lattice points near by
-
-      type(disc_rule) :: rule
-      complex(dp), allocatable :: source(:, :), z(:)
-      real(dp), allocatable :: near(:), nodes(:, :), part(:, :), value(:), values(:, :)
-      integer :: j, k, n
-
-      associate (fold => self%basis%fold, degree => self%basis%degree, terms => self%basis%terms)
-         call start_disc_rule(rule, 0.0_dp, fold, degree/2 + 1, degree/fold + 1)
-         n = size(rule%point)
-         source = reshape(copies(fold, self%radius*rule%point), [n, 2*fold])
-         allocate (near(2*fold*n), nodes(n, n), part(n, terms), value(2*fold*n), values(n, terms))
-         do j = 1, n
-            ! F is symmetric in target and source. So only the sources j .. n are computed for the target j.
-            z = reshape(self%radius*rule%point(j) - source(j:, :), [2*fold*(n - j + 1)])
-            k = size(z)
-            call kernel%evaluate(k, z%re, z%im, value)
-            call self%near%evaluate(k, z%re, z%im, near)
-            nodes(j:, j) = sum(reshape(value(:k) - near(:k), [n - j + 1, 2*fold]), 2)/(2*fold)
-            nodes(j, j:) = nodes(j:, j)
-         end do
-         call self%basis%evaluate(n, rule%point, values)
-         values = values*spread(rule%weight, 2, terms)
-         call dgemm('N', 'N', n, terms, n, 1.0_dp, nodes, n, values, n, 0.0_dp, part, n)
-         self%coefficient = reshape([real(dp) ::], [terms, terms], pad=[0.0_dp])
-         call dgemm('T', 'N', terms, terms, n, 1.0_dp, values, n, part, n, 0.0_dp, self%coefficient, terms)
-      end associate
-   end subroutine find_coefficients
 
    !> Adds, for several targets, the integrals over all images of each term of a fitted function, and the derivatives of
    !> the integral of their sum by the shape. Also sets the integrals without a kernel, and their derivatives: those of
@@ -145,10 +137,12 @@ contains
       real(dp), intent(out) :: load_slope(0:)          !! d(integral of their sum)/d b_k, shape (0:K)
 
       complex(dp) :: place_slope(0:ubound(now%shape%b, 1))
+      complex(dp), dimension(size(target)) :: target_gradient, z      ! gradient by z_t of the sum; z_t [s]
+      complex(dp) :: source(size(rule%point))                         ! z_s [s]
       real(dp), dimension(size(rule%point), 0:ubound(now%shape%b, 1)) :: moment_x, moment_y, strength_slope
-      real(dp) :: weighted(size(rule%point), size(now%c))
-      type(kernel_table) :: table
-      type(periodic_kernel) :: whole
+      real(dp) :: strength(size(rule%point)), weighted(size(rule%point), size(now%c))
+      !> F for all sources and targets, and its gradient by the source's position, shape (n, m).
+      real(dp), dimension(:, :), allocatable :: f, gradient_x, gradient_y
       integer :: columns, m, n, t
 
       m = size(target)
@@ -157,99 +151,93 @@ contains
       call linearise_sources(now%shape, rule, values, now%c, weighted, strength_slope, moment_x, moment_y)
       load_row = sum(weighted, 1)
       load_slope = sum(strength_slope, 1)
-      table%target = now%shape%position_of(target)
-      table%source = now%shape%position_of(rule%point)
-      table%strength = matmul(weighted, now%c)
-      allocate (table%target_gradient(m), source=(0.0_dp, 0.0_dp))
-      allocate (table%f(n, m), table%gradient_x(n, m), table%gradient_y(n, m), source=0.0_dp)
+      z = now%shape%position_of(target)
+      source = now%shape%position_of(rule%point)
+      strength = matmul(weighted, now%c)
+      target_gradient = 0.0_dp
+      allocate (f(n, m), gradient_x(n, m), gradient_y(n, m), source=0.0_dp)
       if (now%shape%radius() <= self%radius) then
-         call add_series(self, table)
-         if (size(self%near%point, 2) > 0) call add_kernel(self%near, now%shape%fold, 1, (0.0_dp, 0.0_dp), table)
+         call add_series()
+         if (size(self%near%point, 2) > 0) call add_kernel(self%near, 1, (0.0_dp, 0.0_dp))
       else
-         call add_kernel(lattice%kernel(merge(2, 1, now%pool)), now%shape%fold, 1, (0.0_dp, 0.0_dp), table)
+         call add_kernel(lattice%kernel(merge(2, 1, now%pool)), 1, (0.0_dp, 0.0_dp))
       end if
       if (now%pool .and. lattice%troughs == 2) then
          ! The second pools, which are rotated by half a turn. None of them is the target's own, so that the whole
          ! kernel is taken, with the origin's term.
-         whole = lattice%kernel(2)
-         whole%whole = .true.
-         call add_kernel(whole, now%shape%fold, -1, 2*lattice%trough, table)
+         call add_kernel(lattice%kernel(3), -1, 2*lattice%trough)
       end if
-      call dgemm('T', 'N', m, size(now%c), n, 1.0_dp, table%f, n, weighted, n, 1.0_dp, rows, m)
-      call dgemm('T', 'N', m, columns, n, 1.0_dp, table%f, n, strength_slope, n, 1.0_dp, shape_rows, m)
-      call dgemm('T', 'N', m, columns, n, 1.0_dp, table%gradient_x, n, moment_x, n, 1.0_dp, shape_rows, m)
-      call dgemm('T', 'N', m, columns, n, 1.0_dp, table%gradient_y, n, moment_y, n, 1.0_dp, shape_rows, m)
+      call dgemm('T', 'N', m, size(now%c), n, 1.0_dp, f, n, weighted, n, 1.0_dp, rows, m)
+      call dgemm('T', 'N', m, columns, n, 1.0_dp, f, n, strength_slope, n, 1.0_dp, shape_rows, m)
+      call dgemm('T', 'N', m, columns, n, 1.0_dp, gradient_x, n, moment_x, n, 1.0_dp, shape_rows, m)
+      call dgemm('T', 'N', m, columns, n, 1.0_dp, gradient_y, n, moment_y, n, 1.0_dp, shape_rows, m)
       do t = 1, m
          call now%shape%linearise_position(target(t), place_slope)
-         shape_rows(t, :) = shape_rows(t, :) + table%target_gradient(t)%re*place_slope%re &
-            + table%target_gradient(t)%im*place_slope%im
+         shape_rows(t, :) = shape_rows(t, :) + target_gradient(t)%re*place_slope%re &
+            + target_gradient(t)%im*place_slope%im
       end do
-   end subroutine add_rows
 
-   !> Adds the mean of a kernel over the copies of each source.
-   subroutine add_kernel(kernel, fold, direction, to_centre, table)
-      type(periodic_kernel), intent(in) :: kernel
-      integer, intent(in) :: fold               !! order of the shape's symmetry: a source has 2 fold copies
-      integer, intent(in) :: direction          !! 1, or -1 if the sources are rotated by half a turn
-      complex(dp), intent(in) :: to_centre      !! the targets' centre less the sources' centre [s]
-      type(kernel_table), intent(inout) :: table
+   contains
 
-      complex(dp), dimension(2*fold*size(table%source)) :: copied, z
-      complex(dp) :: turn
-      real(dp), dimension(size(copied)) :: slope_x, slope_y, value
-      real(dp), dimension(size(table%source)) :: total_x, total_y
-      integer :: copy, mirror, t
+      !> Adds the mean of a kernel over the copies of each source.
+      subroutine add_kernel(kernel, direction, to_centre)
+         type(periodic_kernel), intent(in) :: kernel
+         integer, intent(in) :: direction          !! 1, or -1 if the sources are rotated by half a turn
+         complex(dp), intent(in) :: to_centre      !! the targets' centre less the sources' centre [s]
 
-      copied = direction*copies(fold, table%source) - to_centre
-      associate (mean => 1.0_dp/(2*fold), n => size(table%source))
-         do t = 1, size(table%target)
-            z = table%target(t) - copied
-            call kernel%evaluate(size(z), z%re, z%im, value, slope_x, slope_y)
-            total_x = 0.0_dp
-            total_y = 0.0_dp
-            do copy = 0, 2*fold - 1
-               ! A copy moves as its source does, but rotated and mirrored. So its gradient is rotated and mirrored
-               ! back.
-               turn = -direction*mean*exp(cmplx(0.0_dp, -2*pi*(copy/2)/fold, dp))
-               mirror = 1 - 2*mod(copy, 2)
-               associate (first => copy*n + 1, last => (copy + 1)*n)
-                  associate (x => slope_x(first:last), y => slope_y(first:last))
-                     table%f(:, t) = table%f(:, t) + mean*value(first:last)
+         complex(dp), dimension(2*now%shape%fold*n) :: copied, from
+         complex(dp) :: turn
+         real(dp), dimension(size(copied)) :: slope_x, slope_y, value
+         real(dp), dimension(n) :: total_x, total_y
+         integer :: copy, mirror, t
+
+         associate (fold => now%shape%fold, mean => 1.0_dp/(2*now%shape%fold))
+            copied = direction*copies(fold, source) - to_centre
+            do t = 1, m
+               from = z(t) - copied
+               call kernel%evaluate(size(from), from%re, from%im, value, slope_x, slope_y)
+               total_x = 0.0_dp
+               total_y = 0.0_dp
+               do copy = 0, 2*fold - 1
+                  ! A copy moves as its source does, but rotated and mirrored. So its gradient is rotated and mirrored
+                  ! back.
+                  turn = -direction*mean*exp(cmplx(0.0_dp, -2*pi*(copy/2)/fold, dp))
+                  mirror = 1 - 2*mod(copy, 2)
+                  associate (x => slope_x(copy*n + 1:(copy + 1)*n), y => slope_y(copy*n + 1:(copy + 1)*n))
+                     f(:, t) = f(:, t) + mean*value(copy*n + 1:(copy + 1)*n)
                      total_x = total_x + x
                      total_y = total_y + y
-                     table%gradient_x(:, t) = table%gradient_x(:, t) + (turn%re*x - turn%im*y)
-                     table%gradient_y(:, t) = table%gradient_y(:, t) + mirror*(turn%re*y + turn%im*x)
+                     gradient_x(:, t) = gradient_x(:, t) + (turn%re*x - turn%im*y)
+                     gradient_y(:, t) = gradient_y(:, t) + mirror*(turn%re*y + turn%im*x)
                   end associate
-               end associate
+               end do
+               target_gradient(t) = target_gradient(t) &
+                  + mean*cmplx(dot_product(strength, total_x), dot_product(strength, total_y), dp)
             end do
-            table%target_gradient(t) = table%target_gradient(t) + mean*cmplx( &
-               dot_product(table%strength, total_x), dot_product(table%strength, total_y), dp)
-         end do
-      end associate
-   end subroutine add_kernel
+         end associate
+      end subroutine add_kernel
 
-   !> Adds F and its gradients by the series.
-   subroutine add_series(self, table)
-      class(lattice_images), intent(in) :: self
-      type(kernel_table), intent(inout) :: table
+      !> Adds F and its gradients by the series.
+      subroutine add_series()
+         real(dp), dimension(m, self%basis%terms) :: at_target, target_x, target_y
+         real(dp), dimension(n, self%basis%terms) :: at_source, source_x, source_y
+         real(dp) :: part(self%basis%terms, m), per_radius, total(self%basis%terms)
 
-      real(dp), dimension(size(table%target), self%basis%terms) :: at_target, target_x, target_y
-      real(dp), dimension(size(table%source), self%basis%terms) :: at_source, source_x, source_y
-      real(dp) :: part(self%basis%terms, size(table%target)), per_radius, total(self%basis%terms)
+         per_radius = 1.0_dp/self%radius
+         associate (terms => self%basis%terms)
+            call self%basis%evaluate(m, per_radius*z, at_target)
+            call self%basis%slopes(m, per_radius*z, at_target, target_x, target_y)
+            call self%basis%evaluate(n, per_radius*source, at_source)
+            call self%basis%slopes(n, per_radius*source, at_source, source_x, source_y)
+            call dgemm('N', 'T', terms, m, terms, 1.0_dp, self%coefficient, terms, at_target, m, 0.0_dp, part, terms)
+            call dgemm('N', 'N', n, m, terms, 1.0_dp, at_source, n, part, terms, 1.0_dp, f, n)
+            call dgemm('N', 'N', n, m, terms, per_radius, source_x, n, part, terms, 1.0_dp, gradient_x, n)
+            call dgemm('N', 'N', n, m, terms, per_radius, source_y, n, part, terms, 1.0_dp, gradient_y, n)
+         end associate
+         total = per_radius*matmul(self%coefficient, matmul(strength, at_source))
+         target_gradient = target_gradient + cmplx(matmul(target_x, total), matmul(target_y, total), dp)
+      end subroutine add_series
 
-      per_radius = 1.0_dp/self%radius
-      associate (terms => self%basis%terms, m => size(table%target), n => size(table%source))
-         call self%basis%evaluate(m, per_radius*table%target, at_target)
-         call self%basis%slopes(m, per_radius*table%target, at_target, target_x, target_y)
-         call self%basis%evaluate(n, per_radius*table%source, at_source)
-         call self%basis%slopes(n, per_radius*table%source, at_source, source_x, source_y)
-         call dgemm('N', 'T', terms, m, terms, 1.0_dp, self%coefficient, terms, at_target, m, 0.0_dp, part, terms)
-         call dgemm('N', 'N', n, m, terms, 1.0_dp, at_source, n, part, terms, 1.0_dp, table%f, n)
-         call dgemm('N', 'N', n, m, terms, per_radius, source_x, n, part, terms, 1.0_dp, table%gradient_x, n)
-         call dgemm('N', 'N', n, m, terms, per_radius, source_y, n, part, terms, 1.0_dp, table%gradient_y, n)
-      end associate
-      total = per_radius*matmul(self%coefficient, matmul(table%strength, at_source))
-      table%target_gradient = table%target_gradient + cmplx(matmul(target_x, total), matmul(target_y, total), dp)
-   end subroutine add_series
+   end subroutine add_rows
 
 end module wavycon_lattice_images

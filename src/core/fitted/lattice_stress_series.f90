@@ -4,10 +4,11 @@
 !> cos(k_x x) cos(k_y y) only. A lattice of shifted rows has the terms of a rectangle of two rows in which the sum of
 !> the two wave numbers is even.
 module wavycon_lattice_stress_series
+   use wavycon_disc_sources, only: disc_sources
    use wavycon_kinds, only: dp, pi
    use wavycon_lapack, only: dgemm
-   use wavycon_row_lattice, only: row_lattice
-   use wavycon_stress_kernel, only: stress_field_count
+   use wavycon_stress_kernel, only: of_gap, stress_field_count
+   use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
 
@@ -23,45 +24,56 @@ module wavycon_lattice_stress_series
 
 contains
 
-   !> Computes the amplitudes of the waves that reach a depth, from the point sources of one cell.
-   subroutine start_lattice_stress_series(series, rows, x, y, strength, gap, depth, e_folds)
+   !> Computes the amplitudes of the waves of all spots or pools that reach a depth, from the point sources of one of
+   !> them.
+   subroutine start_lattice_stress_series(series, lattice, sources, depth, e_folds)
       type(lattice_stress_series), intent(out) :: series
-      type(row_lattice), intent(in) :: rows
-      real(dp), intent(in) :: x(:), y(:)         !! positions of the n sources from a crest, shape (n) [s]
-      real(dp), intent(in) :: strength(:)        !! pressure or gap times area, shape (n)
-      logical, intent(in) :: gap                 !! true: the sources are a gap, whose waves have |k| times the pressure
+      type(wave_lattice), intent(in) :: lattice
+      type(disc_sources), intent(in) :: sources  !! pressure or gap; the waves of a gap have |k| times the pressure
       real(dp), intent(in) :: depth              !! least depth at which the series will be evaluated, > 0 [s]
-      real(dp), intent(in) :: e_folds       !! natural logarithm of 1/accuracy
+      real(dp), intent(in) :: e_folds            !! natural logarithm of 1/accuracy
 
+      complex(dp) :: centre
       real(dp), allocatable :: along_x(:, :), along_y(:, :)
+      real(dp), dimension(size(sources%x)) :: strength, x, y
       real(dp) :: height, largest, length
       integer :: i, j, n, waves_x, waves_y
+      logical :: gap
 
-      height = rows%spacing*merge(2, 1, rows%shift > 0.0_dp)
-      series%base_x = 2*pi/merge(height, 1.0_dp, rows%along_y)
-      series%base_y = 2*pi/merge(1.0_dp, height, rows%along_y)
+      gap = sources%source == of_gap
+      centre = merge(lattice%trough, (0.0_dp, 0.0_dp), gap)
+      ! A pool and its image by half a turn about a crest have the same even terms. So the second pool of a cell is a
+      ! factor 2.
+      strength = merge(lattice%troughs, 1, gap)*sources%strength(:, 1)
       series%digits = e_folds
       largest = e_folds/depth
-      waves_x = ceiling(largest/series%base_x)
-      waves_y = ceiling(largest/series%base_y)
       n = size(x)
-      along_x = reshape([(cos(i*(series%base_x*x))*strength, i=0, waves_x)], [n, waves_x + 1])
-      along_y = reshape([(cos(j*(series%base_y*y)), j=0, waves_y)], [n, waves_y + 1])
-      allocate (series%pressure(0:waves_x, 0:waves_y))
-      associate (p => series%pressure)
-         call dgemm('T', 'N', waves_x + 1, waves_y + 1, n, 1.0_dp/rows%spacing, along_x, n, along_y, n, 0.0_dp, p, &
-                    waves_x + 1)
-         do j = 0, waves_y
-            do i = 0, waves_x
-               length = hypot(series%base_x*i, series%base_y*j)
-               if (rows%shift > 0.0_dp .and. mod(i + j, 2) == 1) p(i, j) = 0.0_dp
-               if (gap) p(i, j) = p(i, j)*length/(2*pi)
-               if (i > 0) p(i, j) = 2*p(i, j)
-               if (j > 0) p(i, j) = 2*p(i, j)
-            end do
-         end do
-         p(0, 0) = 0.0_dp
+      x = centre%re + sources%x
+      y = centre%im + sources%y
+      associate (rows => lattice%rows)
+         height = rows%spacing*merge(2, 1, rows%shift > 0.0_dp)
+         series%base_x = 2*pi/merge(height, 1.0_dp, rows%along_y)
+         series%base_y = 2*pi/merge(1.0_dp, height, rows%along_y)
+         waves_x = ceiling(largest/series%base_x)
+         waves_y = ceiling(largest/series%base_y)
+         along_x = reshape([(cos(i*(series%base_x*x))*strength, i=0, waves_x)], [n, waves_x + 1])
+         along_y = reshape([(cos(j*(series%base_y*y)), j=0, waves_y)], [n, waves_y + 1])
+         allocate (series%pressure(0:waves_x, 0:waves_y))
+         call dgemm('T', 'N', waves_x + 1, waves_y + 1, n, 1.0_dp/rows%spacing, along_x, n, along_y, n, 0.0_dp, &
+                    series%pressure, waves_x + 1)
       end associate
+      do j = 0, waves_y
+         do i = 0, waves_x
+            associate (p => series%pressure(i, j))
+               length = hypot(series%base_x*i, series%base_y*j)
+               if (lattice%rows%shift > 0.0_dp .and. mod(i + j, 2) == 1) p = 0.0_dp
+               if (gap) p = p*length/(2*pi)
+               if (i > 0) p = 2*p
+               if (j > 0) p = 2*p
+            end associate
+         end do
+      end do
+      series%pressure(0, 0) = 0.0_dp
    end subroutine start_lattice_stress_series
 
    !> Adds the fields at a point.

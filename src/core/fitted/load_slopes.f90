@@ -8,7 +8,7 @@ module wavycon_load_slopes
    use wavycon_fitted_tuning, only: series_growth
    use wavycon_gauss_newton, only: changes_with_load
    use wavycon_fitted_size, only: merging_ratio
-   use wavycon_kinds, only: dp, pi
+   use wavycon_kinds, only: dp
    use wavycon_wave_lattice, only: wave_lattice
    implicit none (type, external)
    private
@@ -17,9 +17,6 @@ module wavycon_load_slopes
 
    !> The derivatives in an array of slopes: G', A' of the contact area fraction, G''.
    integer, parameter :: number_of_slopes = 3
-   !> Number of points on half a sector of the edge: a constant plus a multiple of the degree. The integrals along the
-   !> edge converge exponentially.
-   integer, parameter :: least_edge_points = 32, edge_points_per_degree = 4
 
 contains
 
@@ -35,14 +32,13 @@ contains
       !> Relative error of G'' by the finite differences of Newton's matrix.
       real(dp), parameter :: of_differences = 1e-10_dp
       real(dp) :: of_degree(number_of_slopes, 0:size(answer%previous))
-      logical :: found_too
       integer :: k
 
       call slopes_of(lattice, answer%solution, slopes, found)
       of_degree(:, 0) = slopes
       do k = 1, size(answer%previous)
-         call slopes_of(lattice, answer%previous(k), of_degree(:, k), found_too)
-         found = found .and. found_too
+         if (.not. found) return
+         call slopes_of(lattice, answer%previous(k), of_degree(:, k), found)
       end do
       if (.not. found) return
       errors = error_estimate(of_degree, answer%misfit_decay, abs(slopes))
@@ -57,25 +53,16 @@ contains
       logical, intent(out) :: found                        !! as of find_load_slopes
 
       type(contact_equations) :: equations
-      complex(dp) :: w, normal, place_change(0:ubound(now%shape%b, 1))
       real(dp), allocatable :: change(:), change_of_change(:)
-      real(dp) :: load_change(2), total   ! total: the integral of the edge's velocity along the edge
-      integer :: i, n
+      real(dp) :: by_shape(0:ubound(now%shape%b, 1)), load_change(2)   ! by_shape: derivatives of the area
 
       call equations%images%prepare(lattice, now, series_growth, epsilon(1.0_dp))
       call start_equations(equations, now, merging_ratio(lattice, now))
       allocate (change(equations%unknowns), change_of_change(equations%unknowns))
       call changes_with_load(equations, lattice, now, change, change_of_change, load_change, found)
       if (.not. found) return
-      n = least_edge_points + edge_points_per_degree*now%basis%degree
-      total = 0.0_dp
-      do i = 1, n
-         w = exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(now%basis%fold*n), dp))
-         normal = now%shape%tangent(w)
-         call now%shape%linearise_position(w, place_change)
-         total = total + real(conjg(normal)*dot_product(change(equations%before_shape + 1:), place_change), dp)
-      end do
-      slopes(2) = 2*pi/n*total/lattice%area
+      call now%shape%linearise_area(by_shape)
+      slopes(2) = dot_product(by_shape, change(equations%before_shape + 1:))/lattice%area
       if (now%pool) then
          slopes([1, 3]) = lattice%troughs*load_change/lattice%area
          slopes(2) = -lattice%troughs*slopes(2)

@@ -37,7 +37,6 @@ module wavycon_periodic_kernel
       logical :: whole = .false.                   !! whether the term of the origin is included
    contains
       procedure :: evaluate
-      procedure, private :: add_points
    end type periodic_kernel
 
    !> Number of nodes of the fit in the square of either coordinate. The first term left out is below rounding.
@@ -61,7 +60,7 @@ contains
    !> Fits both kernels of a lattice.
    subroutine start_periodic_kernels(rows, kernels)
       type(row_lattice), intent(in) :: rows
-      type(periodic_kernel), intent(out) :: kernels(2)     !! Gp and its Laplacian
+      type(periodic_kernel), intent(out) :: kernels(3)     !! Gp, its Laplacian, and the whole of the latter
 
       real(dp), dimension(nodes, nodes) :: inverse, x, y
       real(dp) :: half(2), values(nodes, nodes, 2)
@@ -90,6 +89,8 @@ contains
             call kernel%fit%set_powers(rounding(i))
          end associate
       end do
+      kernels(3) = kernels(2)
+      kernels(3)%whole = .true.
    end subroutine start_periodic_kernels
 
    !> The smooth part, which is the kernel less the origin's term 1/r^power, or the whole kernel, and the gradient if
@@ -117,7 +118,7 @@ contains
             if (present(slope_x)) slope_x = 0.0_dp
             if (present(slope_x)) slope_y = 0.0_dp
          end if
-         call self%add_points(n, xr, yr, value, slope_x, slope_y)
+         call add_points(self, n, xr, yr, value, slope_x, slope_y)
          if (.not. (moved .or. self%whole)) return
          ! The origin's term is taken out at the position itself. At the reduced position, which `evaluate_even` takes,
          ! it is put back. For most positions both are the same.

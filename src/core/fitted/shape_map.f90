@@ -16,12 +16,11 @@ module wavycon_shape_map
 
    public :: shape_map
 
-   !> Numbers of points on the edge in a half sector: intervals for the radius of a shape, least points for its
-   !> perimeter.
-   integer, parameter :: radius_points = 8, least_edge_points = 16
-   !> Safety limit: the largest number of points of a half sector for the perimeter. Only an edge within about 7 % of
-   !> having cusps needs more points; its perimeter is less accurate.
-   integer, parameter :: most_edge_points = 512
+   !> Number of intervals on the edge in a half sector for the radius of a shape.
+   integer, parameter :: radius_points = 8
+   !> Bounds of the ratio that decides on the number of points for the perimeter, which is 16 to 512. Only an edge
+   !> within about 7 % of having cusps has a larger ratio; its perimeter is less accurate.
+   real(dp), parameter :: least_ratio = 0.1_dp, largest_ratio = 0.932_dp
 
    type :: shape_map
       integer :: fold = 4               !! order of the rotational symmetry, >= 2
@@ -259,14 +258,10 @@ contains
       complex(dp), intent(in) :: v         !! |v| >= 1
       complex(dp), intent(out) :: z, slope, conjugate_slope
 
-      complex(dp) :: inverse, power
+      complex(dp) :: power
       integer :: k
 
-      inverse = conjg(v)/(v%re**2 + v%im**2)
-      power = inverse
-      do k = 2, self%fold
-         power = power*inverse
-      end do
+      power = (conjg(v)/(v%re**2 + v%im**2))**self%fold
       ! By Horner's scheme: b_0 + b_1 v^-fold + ..., and the same with the factors 1 - fold k.
       z = 0.0_dp
       slope = 0.0_dp
@@ -331,9 +326,7 @@ contains
       ! that the power is rounding.
       ratio = sum([((self%fold*k - 1)*abs(self%b(k)), k=1, ubound(self%b, 1))]) &
          /(self%b(0)*(1.0_dp - (self%fold + 1)*self%clustering))
-      points = most_edge_points
-      if (ratio < 1.0_dp) points = min(ceiling(log(epsilon(ratio))/log(max(ratio, tiny(ratio)))), most_edge_points)
-      points = max(points, least_edge_points)
+      points = ceiling(log(epsilon(ratio))/log(min(max(ratio, least_ratio), largest_ratio)))
       perimeter = sum([(abs(self%tangent(exp(cmplx(0.0_dp, pi*(i - 0.5_dp)/(self%fold*points), dp)))), i=1, points)]) &
          *2*pi/points
    end function perimeter

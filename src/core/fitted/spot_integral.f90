@@ -29,12 +29,10 @@ module wavycon_spot_integral
       integer, private :: kernel = 1                         !! all_fields or surface_field of wavycon_stress_kernel
       real(dp), private :: stretch = 0.0_dp                  !! upper bound of the map's derivative [s]
       integer :: radii(levels) = 0, angles(levels) = 0       !! for each rule, points on a radius and in a full turn
-      ! Rays and the points of the rules are made when they are first needed.
-      type(stress_rays), allocatable, private :: rays
-      type(disc_sources), private :: rules(levels)
+      type(stress_rays), private :: rays
+      type(disc_sources), private :: rules(levels)           !! their points are made when they are first needed
    contains
       procedure :: add_at, is_resolved
-      procedure, private :: locate
    end type spot_integral
 
 contains
@@ -64,6 +62,7 @@ contains
                                *rule_fineness**[(i, i=0, levels - 1)])
          spot%radii = ceiling(max(least_radii, ceiling(rule_radii_per_degree*degree) + 2) &
                               *rule_fineness**[(i, i=0, levels - 1)])
+         call start_stress_rays(spot%rays, degree, spot%digits, kernel)
       end associate
    end subroutine start_spot_integral
 
@@ -77,7 +76,7 @@ contains
       complex(dp) :: offset, origin
       integer :: level
 
-      call self%locate(z, depth, origin, offset, level)
+      call locate(self, z, depth, origin, offset, level)
       if (level <= levels) then
          if (.not. allocated(self%rules(level)%x)) &
             call start_disc_sources(self%rules(level), self%solution, &
@@ -85,10 +84,6 @@ contains
                                     self%angles(level))
          call self%rules(level)%add_at(self%kernel, z, depth, fields)
       else
-         if (.not. allocated(self%rays)) then
-            allocate (self%rays)
-            call start_stress_rays(self%rays, self%solution%basis%degree, self%digits, self%kernel)
-         end if
          call self%rays%add_at(self%solution, origin, [offset], [depth], fields)
       end if
    end subroutine add_at
@@ -101,7 +96,7 @@ contains
       complex(dp) :: offset, origin
       integer :: level
 
-      call self%locate(z, 0.0_dp, origin, offset, level)
+      call locate(self, z, 0.0_dp, origin, offset, level)
       is_resolved = level <= far_level
    end function is_resolved
 

@@ -48,8 +48,8 @@ module wavycon_wave_lattice
       complex(dp), allocatable :: to_next_crest(:), to_next_trough(:)
       type(row_lattice) :: rows                      !! the lattice of the crests
       !> 1: Gp, the kernel of spots; the integral of Gp times p is u less its mean, (F2). 2: its Laplacian, the kernel
-      !> of pools, which turns a gap into a pressure, (F10).
-      type(periodic_kernel) :: kernel(2)
+      !> of pools, which turns a gap into a pressure, (F10). Both are the smooth parts. 3: the whole of the second one.
+      type(periodic_kernel) :: kernel(3)
    contains
       procedure :: rise, curvatures, rise_slope
    end type wave_lattice

@@ -73,17 +73,42 @@ contains
       integer :: i, number, places(2, most_crests(surface%dimension))
       real(dp) :: possible   ! the highest pressure that a local maximum may have which is not taken as the peak
       real(dp), allocatable :: full(:, :, :)
-      type(crest_type) :: crests(size(places, 2))
+      type(crest_type) :: crests(most_crests(surface%dimension))
 
       call find_crests(edge, places, number, possible)
       crests(:number) = [(crest_at(edge, places(:, i)), i=1, number)]
-      call find_full_pressures(edge, surface, crests(:number), full)
+      call find_full_pressures()
       peak = 0.0_dp
       bend = unknown
       do i = 1, number
          call climb_between(crests(i), full(:, :, i), peak, bend, possible)
       end do
       bend = max(bend, possible - peak)
+
+   contains
+
+      !> The pressure of full contact, less its mean, about each crest: at the crossings of 15 lines along y with 15
+      !> along x, in 1-D with one, shape (15, 15 or 1, crests). Lines 1 to 7 pass through points of the grid, 8 to 15
+      !> through the fifths of the two steps beside the crest.
+      subroutine find_full_pressures()
+         real(dp), parameter :: lines(*) = [-3.0_dp, -2.0_dp, -1.0_dp, 0.0_dp, 1.0_dp, 2.0_dp, 3.0_dp, &
+                                            -0.8_dp, -0.6_dp, -0.4_dp, -0.2_dp, 0.2_dp, 0.4_dp, 0.6_dp, 0.8_dp]
+         real(dp) :: angles(size(lines), number, 2)
+         integer :: crossed, highest(2), i, j
+
+         do j = 1, number
+            do i = 1, size(lines)
+               angles(i, j, :) = edge%angles(crests(j)%place + lines(i))
+            end do
+         end do
+         highest = edge%slab%points/2
+         if (edge%even) highest = edge%slab%points - 1
+         crossed = size(lines)
+         if (surface%dimension == 1) crossed = 1
+         allocate (full(size(lines), crossed, number), &
+                   source=full_contact_patches(surface, highest, angles(:, :, 1), angles(:crossed, :, 2)))
+      end subroutine find_full_pressures
+
    end subroutine find_peak_between
 
    !> What is about a point. The process that has the point looks, and all get its numbers.
@@ -227,32 +252,6 @@ contains
       end do
       fifths = matmul(transpose(at), matmul(values, at))
    end function to_fifths
-
-   !> The pressure of full contact, less its mean, about each crest: at the crossings of 15 lines along y with 15 along
-   !> x. Lines 1 to 7 pass through points of the grid, 8 to 15 through the fifths of the two steps beside the crest.
-   subroutine find_full_pressures(edge, surface, crests, full)
-      type(grid_edge), intent(in) :: edge
-      type(surface_type), intent(in) :: surface
-      type(crest_type), intent(in) :: crests(:)
-      real(dp), allocatable, intent(out) :: full(:, :, :)   !! shape (15, 15 or in 1-D 1, crests)
-
-      real(dp), parameter :: lines(*) = [-3.0_dp, -2.0_dp, -1.0_dp, 0.0_dp, 1.0_dp, 2.0_dp, 3.0_dp, &
-                                         -0.8_dp, -0.6_dp, -0.4_dp, -0.2_dp, 0.2_dp, 0.4_dp, 0.6_dp, 0.8_dp]
-      real(dp) :: angles(size(lines), size(crests), 2)
-      integer :: crossed, highest(2), i, j
-
-      do j = 1, size(crests)
-         do i = 1, size(lines)
-            angles(i, j, :) = edge%angles(crests(j)%place + lines(i))
-         end do
-      end do
-      highest = edge%slab%points/2
-      if (edge%even) highest = edge%slab%points - 1
-      crossed = size(lines)
-      if (surface%dimension == 1) crossed = 1
-      allocate (full(size(lines), crossed, size(crests)), &
-                source=full_contact_patches(surface, highest, angles(:, :, 1), angles(:crossed, :, 2)))
-   end subroutine find_full_pressures
 
    !> Finds the local maxima near which the largest pressure may be: the highest point, and those that are the highest
    !> after each has been raised by what its neighbours along x and y let expect between the points.

@@ -53,7 +53,7 @@ contains
       if (present(with_images)) with_mirrored = with_images
       parent = [(k, k=1, runs)]
       do l = 0, cell(2) - 1
-         call join_row(numbers, l, with_mirrored, parent)
+         call join_row(l)
       end do
 
       allocate (number_of(runs), source=0)
@@ -74,6 +74,35 @@ contains
             end associate
          end do
       end do
+
+   contains
+
+      !> Joins the runs of a row with the runs that they touch: across the side of the cell in the same row, and in the
+      !> next row.
+      subroutine join_row(l)
+         integer, intent(in) :: l   !! the row, from 0
+
+         integer :: above(-1:size(numbers%region_at, 1)), k
+
+         associate (last => ubound(numbers%region_at, 1), rows => size(numbers%region_at, 2))
+            call join(parent, numbers%region_at(0, l), numbers%region_at(last, l))
+            above(0:last) = numbers%region_at(:, modulo(l + 1, rows))
+            if (l + 1 == rows) above(0:last) = cshift(above(0:last), -numbers%skew)
+            above(-1) = above(last)
+            above(last + 1) = above(0)
+            do k = 0, last
+               call join(parent, numbers%region_at(k, l), above(k))
+               if (with_mirrored) then
+                  call join(parent, numbers%region_at(k, l), numbers%region_at(modulo(1 - k, last + 1), l))
+                  call join(parent, numbers%region_at(k, l), numbers%region_at(k, modulo(1 - l, rows)))
+               end if
+               if (numbers%region_at(k, l) < 0) cycle
+               call join(parent, numbers%region_at(k, l), above(k - 1))
+               call join(parent, numbers%region_at(k, l), above(k + 1))
+            end do
+         end associate
+      end subroutine join_row
+
    end subroutine find_region_numbers
 
    !> The point of the cell of which a point of the plane is a periodic image.
@@ -88,35 +117,6 @@ contains
       point(2) = modulo(l, rows)
       point(1) = modulo(k - self%skew*((l - point(2))/rows), size(self%region_at, 1))
    end function wrap
-
-   !> Joins the runs of a row with the runs that they touch: across the side of the cell in the same row, and in the
-   !> next row.
-   subroutine join_row(numbers, l, with_images, parent)
-      type(region_numbers), intent(in) :: numbers   !! numbers%region_at has the numbers of the runs with their signs
-      integer, intent(in) :: l                      !! the row, from 0
-      logical, intent(in) :: with_images            !! whether runs are joined with their mirror images as well
-      integer, intent(inout) :: parent(:)           !! the forest of joined runs: each run's parent, a root's is itself
-
-      integer :: above(-1:size(numbers%region_at, 1)), k
-
-      associate (last => ubound(numbers%region_at, 1), rows => size(numbers%region_at, 2))
-         call join(parent, numbers%region_at(0, l), numbers%region_at(last, l))
-         above(0:last) = numbers%region_at(:, modulo(l + 1, rows))
-         if (l + 1 == rows) above(0:last) = cshift(above(0:last), -numbers%skew)
-         above(-1) = above(last)
-         above(last + 1) = above(0)
-         do k = 0, last
-            call join(parent, numbers%region_at(k, l), above(k))
-            if (with_images) then
-               call join(parent, numbers%region_at(k, l), numbers%region_at(modulo(1 - k, last + 1), l))
-               call join(parent, numbers%region_at(k, l), numbers%region_at(k, modulo(1 - l, rows)))
-            end if
-            if (numbers%region_at(k, l) < 0) cycle
-            call join(parent, numbers%region_at(k, l), above(k - 1))
-            call join(parent, numbers%region_at(k, l), above(k + 1))
-         end do
-      end associate
-   end subroutine join_row
 
    !> Joins two runs if they are of one kind: both in contact or both outside. The lower number becomes the root.
    pure subroutine join(parent, a, b)
