@@ -103,7 +103,9 @@ contains
    subroutine forget_last_load(self)
       class(fitted_contact), intent(inout) :: self
 
-      self%last = fitted_answer()
+      type(fitted_answer) :: none
+
+      self%last = none
    end subroutine forget_last_load
 
 end module wavycon_fitted_contact
