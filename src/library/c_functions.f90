@@ -208,31 +208,48 @@ contains
       character(kind=c_char), intent(inout), optional :: buffer(*)
       integer(c_size_t), value :: bytes
 
-      character(:), allocatable :: known(:), meaning(:), words
-      integer, allocatable :: near(:)
-      integer :: i
+      character(:), allocatable :: words
       integer(c_int) :: ignored
       type(c_call) :: this
 
-      words = ''
-      if (this%begins(error, needs='wavycon_get_near_names name names', are_there=[present(name), present(names)])) then
-         allocate (known, source=lines_of(text_at(names)))
-         if (present(meanings)) allocate (meaning, source=lines_of(text_at(meanings)))
-         if (allocated(meaning)) then
-            if (size(meaning) /= size(known)) call fatal_error(this%trouble, exit_bad_input, &
-               'names and meanings must have as many lines each')
-         end if
+      if (.not. this%begins(error, needs='wavycon_get_near_names name names', &
+                            are_there=[present(name), present(names)])) then
+         words = ''
+      else if (present(meanings)) then
+         call list_near_names(text_at(name), lines_of(text_at(names)), words, this%trouble, lines_of(text_at(meanings)))
+      else
+         call list_near_names(text_at(name), lines_of(text_at(names)), words, this%trouble)
       end if
-      if (.not. allocated(this%trouble)) then
-         allocate (near, source=near_names(lower_case(text_at(name)), &
-                                          lines_of(lower_case(text_at(names))), meanings=meaning))
-         do i = 1, size(near)
-            words = words//trim(known(near(i)))//newline
-         end do
-      end if
-      needed = put_text(words, buffer, bytes)
+      needed = 0
+      if (.not. allocated(this%trouble)) needed = put_text(words, buffer, bytes)
       ignored = this%code()
    end function get_near_names
+
+   !> Lists the known names that may be meant, a line each. Errors: exit_bad_input for another number of meanings.
+   subroutine list_near_names(name, known, words, trouble, meanings)
+      character(*), intent(in) :: name, known(:)
+      character(:), allocatable, intent(out) :: words
+      type(error_type), allocatable, intent(inout) :: trouble
+      character(*), intent(in), optional :: meanings(:)   !! of the known names
+
+      character(len(known)) :: lower(size(known))
+      integer :: i
+      integer, allocatable :: near(:)
+
+      words = ''
+      if (present(meanings)) then
+         if (size(meanings) /= size(known)) call fatal_error(trouble, exit_bad_input, &
+                                                             'names and meanings must have as many lines each')
+      end if
+      if (allocated(trouble)) return
+      do i = 1, size(known)
+         lower(i) = lower_case(known(i))
+      end do
+      allocate (near, source=near_names(lower_case(name), lower, meanings=meanings))
+      do i = 1, size(near)
+         words = words//trim(known(near(i)))//newline
+      end do
+   end subroutine list_near_names
 
    type(c_ptr) function new_table(error, solution, name) result(handle) bind(c, name='wavycon_new_table')
       type(c_ptr), value :: error, solution

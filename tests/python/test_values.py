@@ -148,6 +148,9 @@ class Names(ValuesTest):
         ball = {"e1": 2e5, "nu1": 0.3, "yield_stress": 500}
         with wc.problem(wc.ball(radius=2, length_x=0.1), **ball) as p:
             self.assertAlmostEqual(p.find(yield_=1).force, wc.solve(wc.ball(radius=2), yield_=1, **ball)[0].force)
+        self.refuse("as many lines", library.copied, "get_near_names", b"x", b"a\nb", b"one")
+        self.assertEqual(["Mean_Gap"], library.copied("get_near_names", b"gap", b"map\nMean_Gap", None).splitlines())
+        self.assertEqual("", library.copied("get_near_names", b"gap", b"", None))
         self.refuse("no key 'tolerance'$", wc.solve, wave, tolerance=1)
         self.refuse("no key 'E'; did you mean 'e1'", wc.solve, wave, E=1)
         self.refuse("several groups have a key 'nu': .*, or nu1, or nu2", wc.solve, wave, nu=0.3)
@@ -782,4 +785,5 @@ if __name__ == "__main__":
     import numpy
     import wavycon as wc
     from wavycon import files as files_of_package
+    from wavycon import library
     main()
