@@ -6,7 +6,7 @@ module wavycon_collected_table
    use wavycon_error, only: error_type, exit_file_trouble, fatal_error
    use wavycon_file_bytes, only: read_file
    use wavycon_key_group, only: key_list
-   use wavycon_key_table, only: integer_value, real_value
+   use wavycon_key_table, only: integer_value, real_value, words_of
    use wavycon_kinds, only: dp
    use wavycon_memory_table, only: column_list, column_type, longest_column, longest_word, of_words
    use wavycon_output_file, only: output_file, table_mark
@@ -249,7 +249,7 @@ contains
    end function has_commas
 
    !> Reads a summary: a head whose last line has the units, a line of names, and rows. Errors: exit_file_trouble, also
-   !> for one whose rows are not as many as the loads, or not as long as the line of names.
+   !> for one whose rows are not as many as the loads, or not as long as the line of names, or lack words.
    subroutine read_summary(deck, columns, error)
       type(collected_deck), intent(inout) :: deck   !! gets `columns` and `rows`
       integer, intent(in) :: columns                !! the number of columns that a summary has
@@ -267,7 +267,11 @@ contains
       deck%columns = column_list(text(units:names - 2))
       deck%rows = text(rows:)
       is_whole = deck%rows /= '' .and. len(deck%rows) == deck%loads*(rows - names) .and. size(deck%columns) == columns
-      if (is_whole) is_whole = all([(deck%rows(k*(rows - names):k*(rows - names)) == newline, k=1, deck%loads)])
+      do k = 1, merge(deck%loads, 0, is_whole)
+         associate (row => deck%rows((k - 1)*(rows - names) + 1:k*(rows - names)))
+            is_whole = is_whole .and. row(len(row):) == newline .and. size(words_of(row(:len(row) - 1))) == columns
+         end associate
+      end do
       if (.not. is_whole) call fatal_error(error, exit_file_trouble, &
          escaped(deck%stem)//'.summary.dat: the summary is damaged. Without --resume all decks are run again')
    end subroutine read_summary
