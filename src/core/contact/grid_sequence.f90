@@ -192,13 +192,25 @@ contains
          call solve_on_grid(half_space, h, residual, most, answer%state, progress)
          answer%transform_pairs = answer%transform_pairs + half_space%transform_pairs
       end if
-      ! The energy per area [p* Delta] is the mean of p u/2 with u = gap - h + approach.
-      associate (state => answer%state)
-         if (.not. state%interrupted) answer%value(elastic_energy) = 0.5_dp*state%slab%sum_of( &
-            state%pressure*(state%gap - h + state%approach))/product(real(state%slab%points, dp))
-      end associate
+      if (.not. answer%state%interrupted) answer%value(elastic_energy) = energy_of(answer%state, h)
       answer%iterations = answer%iterations + answer%state%iterations
    end subroutine solve_level
+
+   !> The elastic energy per area [p* Delta], the mean of p u/2 with u = gap - h + approach. It is summed column by
+   !> column, as another field of the largest grids would take gigabytes.
+   real(dp) function energy_of(state, undeformed_gap)
+      type(grid_state), intent(in) :: state          !! solution with its gap
+      real(dp), intent(in) :: undeformed_gap(:, :)   !! h [Delta], shape of the gap
+
+      integer :: j
+      real(dp) :: column_sums(1, size(undeformed_gap, 2))
+
+      do j = 1, size(undeformed_gap, 2)
+         column_sums(1, j) = dot_product(state%pressure(:, j), &
+                                         state%gap(:, j) - undeformed_gap(:, j) + state%approach)
+      end do
+      energy_of = 0.5_dp*sum(state%slab%column_totals(column_sums))/product(real(state%slab%points, dp))
+   end function energy_of
 
    !> Computes mean gap, contact area (C11), (C12) and peak pressure (C13) on the present grid, and their error
    !> estimates (C14) to (C17b), (C22b), (C22c). With a hardness the area is P/H at least, the smallest that carries
