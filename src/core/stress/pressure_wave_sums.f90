@@ -165,7 +165,8 @@ contains
          q_z = q*depth
          wave = 0.5_dp*exp(-q_z)*self%pressure%row(l, last(1))*turn_x*turn(2*pi*modulo(l*offset(2)/points(2), 1.0_dp))
          where (q_z > limit) wave = 0.0_dp
-         shear = -(1.0_dp - 2*nu - q_z)/q**2
+         ! Bounded where it is multiplied by zero: at the mean, and where waves have died out.
+         shear = -(1.0_dp - 2*nu - min(q_z, limit))/max(q**2, sqrt(tiny(q)))
          select case (number)
          case (2)
             here(:, 1) = sqrt3*cmplx((0.5_dp*(k**2 - q_y**2) + k*q_y)*shear, (k + q_y)*depth, dp)*wave

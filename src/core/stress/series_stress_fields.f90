@@ -352,7 +352,7 @@ contains
       error = min(self%pressure_error + self%edge_pressure, self%image_error &
                   + sqrt(self%wave_error*sum_of_waves)*depth/from*exp((from - depth)/longer))
       mean_square = of_one/depth
-      if (self%dimension == 2) mean_square = of_all/(2*self%waves%sampled_from*depth**2)
+      if (self%dimension == 2) mean_square = of_all/(2*self%waves%sampled_from*depth)/depth   ! without overflow
       near_edges = min(1.0_dp, 2*depth*self%edge_density)
       if (near_edges > 0.0_dp) error = min(error, self%image_error &
                                            + told_of_edges*sqrt(self%wave_error*mean_square/near_edges))
