@@ -333,6 +333,8 @@ contains
 
       integer :: last_status
 
+      ! From here on a signal interrupts nothing: mpiexec sends one to the ranks when one of them has ended by an error.
+      call note_kept(c_null_char)
       last_status = status
       if (print_trouble() /= 0) then
          write (error_unit, '(a)') 'wavycon: standard output: cannot be written: '//error_text(int(print_trouble()))
