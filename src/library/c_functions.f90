@@ -233,6 +233,7 @@ contains
       character(*), intent(in), optional :: meanings(:)   !! of the known names
 
       character(len(known)) :: lower(size(known))
+      logical :: is_given(size(known))
       integer :: i
       integer, allocatable :: near(:)
 
@@ -242,10 +243,15 @@ contains
                                                              'names and meanings must have as many lines each')
       end if
       if (allocated(trouble)) return
+      is_given = .false.
       do i = 1, size(known)
          lower(i) = lower_case(known(i))
       end do
-      allocate (near, source=near_names(lower_case(name), lower, meanings=meanings))
+      if (present(meanings)) then
+         allocate (near, source=near_names(lower_case(name), lower, is_given, meanings))
+      else
+         allocate (near, source=near_names(lower_case(name), lower, is_given))
+      end if
       do i = 1, size(near)
          words = words//trim(known(near(i)))//newline
       end do

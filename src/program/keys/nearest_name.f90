@@ -31,8 +31,8 @@ contains
    pure function near_names(name, known, is_given, meanings) result(near)
       character(*), intent(in) :: name                  !! lower case
       character(*), intent(in) :: known(:)              !! lower case, padded with blanks
-      !> Whether a known name stands beside this one: of two at the same distance the other one is taken. Absent: none.
-      logical, intent(in), optional :: is_given(:)
+      !> Whether a known name stands beside this one: of two at the same distance the other one is taken.
+      logical, intent(in) :: is_given(:)
       character(*), intent(in), optional :: meanings(:) !! of the known names; absent: the third is left out
       integer, allocatable :: near(:)
 
@@ -50,9 +50,13 @@ contains
    !> The number of the known name that is nearest to a misspelt name; 0 if none is near.
    pure integer function nearest_name(name, known, is_given) result(nearest)
       character(*), intent(in) :: name, known(:)     !! as for near_names
-      logical, intent(in), optional :: is_given(:)   !! as for near_names
+      logical, intent(in), optional :: is_given(:)   !! as for near_names; absent: none does
 
-      nearest = sum(near_names(name, known, is_given))   ! which are one or none
+      logical :: given(size(known))
+
+      given = .false.
+      if (present(is_given)) given = is_given
+      nearest = sum(near_names(name, known, given))   ! which are one or none
    end function nearest_name
 
    !> The numbers of the names whose whole name is a word of a name, otherwise of those whose meanings have the rarest
@@ -164,12 +168,19 @@ contains
       character(:), allocatable :: words
 
       character(len(before) + len(known) + len(after)) :: told(most_told)
+      logical :: given(size(known))
       integer :: i
       integer, allocatable :: near(:)
 
       words = ''
       if (present(otherwise)) words = otherwise
-      allocate (near, source=near_names(name, known, is_given, meanings))
+      given = .false.
+      if (present(is_given)) given = is_given
+      if (present(meanings)) then
+         allocate (near, source=near_names(name, known, given, meanings))
+      else
+         allocate (near, source=near_names(name, known, given))
+      end if
       if (size(near) == 0) return
       do i = 1, size(near)
          told(i) = before//trim(known(near(i)))//after
