@@ -161,7 +161,8 @@ contains
          first = 1
          i = 0
          do while (first <= len(text))
-            last = first + index(text(first:)//newline, newline) - 2
+            last = first + index(text(first:), newline) - 2
+            if (last < first - 1) last = len(text)   ! the last line has no newline
             length = max(length, last - first + 1)
             i = i + 1
             if (pass == 2) lines(i) = text(first:last)

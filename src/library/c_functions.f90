@@ -227,8 +227,8 @@ contains
 
    !> Lists the known names that may be meant, a line each. Errors: exit_bad_input for another number of meanings.
    subroutine list_near_names(name, known, words, trouble, meanings)
-      character(*), intent(in) :: name, known(:)
-      character(:), allocatable, intent(out) :: words
+      character(*), intent(in) :: name, known(:)         !! the unknown name; the known ones, padded with blanks
+      character(:), allocatable, intent(out) :: words    !! the names, each with a newline behind it
       type(error_type), allocatable, intent(inout) :: trouble
       character(*), intent(in), optional :: meanings(:)   !! of the known names
 

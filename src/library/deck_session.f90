@@ -146,21 +146,31 @@ contains
       logical, intent(in) :: keep_fields     !! whether fields, edges or stresses will be needed
       type(error_type), allocatable, intent(out) :: error
 
-      character(:), allocatable :: trouble
       type(deck_text_type) :: text
       type(setting_type), allocatable :: setting(:)
-      integer :: i
 
-      associate (lines => lines_of(settings))
+      call take_settings(lines_of(settings))
+      if (.not. allocated(error)) call read_deck_text(path, text, error)
+      if (.not. allocated(error)) call self%open(text%content, path, keep_fields, error, settings=setting)
+
+   contains
+
+      !> Reads the settings, a line for each.
+      subroutine take_settings(lines)
+         character(*), intent(in) :: lines(:)
+
+         character(:), allocatable :: trouble
+         integer :: i
+
          allocate (setting(size(lines)))
          do i = 1, size(setting)
             call read_setting(trim(lines(i)), setting(i), trouble)
-            if (allocated(trouble)) call fatal_error(error, exit_bad_input, trouble)
-            if (allocated(error)) return
+            if (.not. allocated(trouble)) cycle
+            call fatal_error(error, exit_bad_input, trouble)
+            return
          end do
-      end associate
-      call read_deck_text(path, text, error)
-      if (.not. allocated(error)) call self%open(text%content, path, keep_fields, error, settings=setting)
+      end subroutine take_settings
+
    end subroutine open_file
 
    !> Solves one load. A load that cannot be solved as requested is not an error; the status of the solution says so.
